@@ -83,6 +83,7 @@ function (tipp_compile_quickly target)
   if (TIPP_SANITIZE)
     target_compile_options(${target} PRIVATE -O0)
   else ()
-    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+    # The wheel is to be small.
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:$<IF:$<BOOL:${TIPP_BUILD_WHEEL}>,-Os,-O1>>)
   endif ()
 endfunction ()

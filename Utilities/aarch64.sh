@@ -32,12 +32,13 @@ configure() {
 
 case $what in
   test | checksums)
-    install g++-aarch64-linux-gnu qemu-user-static libgmp-dev:arm64 libmpfr-dev:arm64 libgtest-dev:arm64
+    install g++-aarch64-linux-gnu qemu-user-static libgmp-dev:arm64 libmpfr-dev:arm64 libgtest-dev:arm64 \
+      libfmt-dev:arm64 libdeflate-dev:arm64
     configure build-aarch64 "--toolchain=$toolchain"
     ;;
   wheel)
     [ $# -ge 2 ] || { echo "Name a folder for the wheel: sh Utilities/aarch64.sh wheel FOLDER [PYTHON]" >&2; exit 2; }
-    install g++-aarch64-linux-gnu libc6-dev-arm64-cross
+    install g++-aarch64-linux-gnu libc6-dev-arm64-cross libfmt-dev:arm64 libdeflate-dev:arm64
     export CXX=aarch64-linux-gnu-g++ TIPP_WHEEL_MACHINE=aarch64 _PYTHON_HOST_PLATFORM=linux-aarch64
     export CMAKE_ARGS="-DCMAKE_TOOLCHAIN_FILE=$toolchain"
     exec sh Utilities/wheel.sh "$2" "${3:-python3}"

@@ -2,7 +2,8 @@
 #include "Parallel/ThreadPool.h"
 
 #include <condition_variable>
-#include <system_error>
+#include <exception>
+#include <memory>
 #include <thread>
 #include <utility>
 
@@ -58,6 +59,7 @@ ThreadPool::ThreadPool()
     []
     {
       instance().Idle.clear();
+      instance().Started = 0;
       instance().Mutex.unlock();
     });
 }
@@ -76,17 +78,18 @@ ThreadPool::Worker* ThreadPool::takeWorker()
     this->Idle.pop_back();
     return worker;
   }
-  auto* const worker = new Worker;
   try
   {
-    std::thread([this, worker] { this->serve(*worker); }).detach();
+    auto worker = std::make_unique<Worker>();
+    this->Idle.reserve(this->Started + 1); // so that workers return without an allocation
+    std::thread([this, w = worker.get()] { this->serve(*w); }).detach();
+    ++this->Started;
+    return worker.release();
   }
-  catch (const std::system_error&)
+  catch (const std::exception&) // no more threads or memory
   {
-    delete worker;
     return nullptr;
   }
-  return worker;
 }
 
 void ThreadPool::serve(Worker& worker)

@@ -4,6 +4,7 @@
 
 #include "vtkTIPPAcceleratorsModule.h"
 
+#include <cstddef>
 #include <functional>
 #include <mutex>
 #include <vector>
@@ -37,6 +38,7 @@ private:
 
   std::mutex Mutex; ///< of all data here, in workers and in teams
   std::vector<Worker*> Idle;
+  std::size_t Started = 0; ///< number of workers, which are never ended
 };
 
 } // namespace tipp

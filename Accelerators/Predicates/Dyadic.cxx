@@ -241,7 +241,12 @@ double nearestRoot(const Dyadic& numerator, const Dyadic& denominator)
   const double square = std::ldexp(a.Fraction / b.Fraction, exponent - 2 * half);
   return nearestDouble(std::ldexp(std::sqrt(square), half),
     [&](const Dyadic& middle)
-    { return (numerator - middle * middle * denominator).sign() * denominator.sign(); });
+    {
+      // A root is above all negative numbers, whose squares tell nothing.
+      return middle.sign() < 0
+        ? 1
+        : (numerator - middle * middle * denominator).sign() * denominator.sign();
+    });
 }
 
 } // namespace tipp

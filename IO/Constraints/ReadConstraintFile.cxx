@@ -240,9 +240,15 @@ ConstraintTable readVectorFile(const std::string& path)
 
 ConstraintTable readVectorFile(const std::string& path)
 {
+#ifdef TIPP_WITHOUT_VTK
+  const char* const others = ".csv, .poly or .14";
+#else
+  const char* const others = ".csv, .poly or .vtp";
+#endif
   throw IOError(path,
-    "needs GDAL, and this program was built without it; install libgdal-dev and build it again, or "
-    "give .csv, .poly or .vtp.");
+    std::string("needs GDAL, and this program was built without it; build it with GDAL (Debian's "
+                "libgdal-dev), or give ") +
+      others + ".");
 }
 
 #endif

@@ -8,9 +8,10 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cstdint>
-#include <cstdlib>
 #include <iterator>
+#include <system_error>
 #include <utility>
 
 namespace tipp
@@ -42,11 +43,14 @@ bool areKnown(const StatedCodes& codes)
 /// Reads "CODE" or "CODE+CODE". Returns no codes for any other text.
 StatedCodes codesIn(const std::string& text)
 {
-  char* end = nullptr;
+  const char* const end = text.data() + text.size();
   StatedCodes codes;
-  codes.Horizontal = int(std::strtol(text.c_str(), &end, 10));
-  codes.Heights = *end == '+' ? int(std::strtol(end + 1, &end, 10)) : 0;
-  return *end == '\0' ? codes : StatedCodes();
+  std::from_chars_result read = std::from_chars(text.data(), end, codes.Horizontal);
+  if (read.ec == std::errc() && read.ptr != end && *read.ptr == '+')
+  {
+    read = std::from_chars(read.ptr + 1, end, codes.Heights);
+  }
+  return read.ec == std::errc() && read.ptr == end ? codes : StatedCodes();
 }
 
 bool startsWith(const std::string& text, const std::string& start)
@@ -65,7 +69,7 @@ StatedCodes completeCodes(const std::string& crs)
     return codesIn(crs.substr(prefix.size()));
   }
   const StatedCodes codes = codesOf(crs);
-  return hasHeightSystem(crs) && codes.Heights == 0 ? StatedCodes() : codes;
+  return hasHeightSystem(withoutBlanks(crs)) && codes.Heights == 0 ? StatedCodes() : codes;
 }
 
 std::vector<TiffField> translated(const std::string& crs)

@@ -15,6 +15,9 @@
 #include <csignal>
 #include <sys/prctl.h>
 #endif
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 namespace tipp
 {
@@ -120,6 +123,23 @@ inline int openMemoryFile([[maybe_unused]] const char* name)
   return memfd_create(name, MFD_CLOEXEC);
 #else
   return -1;
+#endif
+}
+
+/// Lets the allocator return large blocks to the system when they are freed, also after it has seen
+/// larger ones.
+inline void returnLargeBlocks()
+{
+#ifdef __GLIBC__
+  mallopt(M_MMAP_THRESHOLD, 1 << 20);
+#endif
+}
+
+/// Returns freed memory to the system.
+inline void returnFreedMemory()
+{
+#ifdef __GLIBC__
+  malloc_trim(0);
 #endif
 }
 

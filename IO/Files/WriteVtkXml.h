@@ -23,7 +23,7 @@ namespace tipp
 template <typename T>
 constexpr Scalar scalarOfType()
 {
-  static_assert(std::is_arithmetic_v<T>);
+  static_assert(std::is_arithmetic_v<T> && sizeof(T) != 2);
   return std::is_floating_point_v<T> ? (sizeof(T) == 4 ? Scalar::Float32 : Scalar::Float64)
     : sizeof(T) == 1                 ? (std::is_signed_v<T> ? Scalar::Int8 : Scalar::UInt8)
     : sizeof(T) == 4                 ? (std::is_signed_v<T> ? Scalar::Int32 : Scalar::UInt32)

@@ -60,7 +60,7 @@ bool isFlatVtu(const std::string& path);
 class VTKTIPPIO_EXPORT CellReader
 {
 public:
-  /// `threads` = 0 is OpenMP's default. Throws IOError if the file cannot be opened.
+  /// `threads` = 0: usualThreads(). Throws IOError if the file cannot be opened.
   explicit CellReader(const FlatMesh& mesh, int threads = 0);
 
   /// Reads cells [first, first + cells) into `ids`, which is resized: CellSize point indices each.

@@ -168,7 +168,9 @@ void setCurveTolerance(double) {}
 
 std::vector<NamedZone> readZones(const std::string& path, const std::string&)
 {
-  throw IOError(path, "needs GDAL, and this program was built without it.");
+  throw IOError(path,
+    "needs GDAL, and this program was built without it; build it with GDAL (Debian's "
+    "libgdal-dev).");
 }
 
 void writeGeoPackage(const std::string& path, const Contours&, const std::string&,

@@ -239,7 +239,8 @@ inline void requireCrs(const std::string& text)
 }
 
 /// @name Functions that use GDAL
-/// All throw IOError if GDAL fails or is not installed.
+/// All throw IOError if GDAL fails. Without GDAL, makeGeoKeys() knows the systems of EPSG, and the
+/// others throw IOError.
 ///@{
 /// Describes a coordinate reference system for geoKeysOf(), which remembers the result.
 std::vector<TiffField> makeGeoKeys(const std::string& crs);

@@ -8,7 +8,9 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <limits>
+#include <system_error>
 #include <vector>
 
 namespace tipp
@@ -106,7 +108,14 @@ RasterInfo readRasterInfo(const std::string& path)
 {
   const std::optional<RasterInfo> info =
     openerOf(path, Use::Rasters) == Opener::GeoTiff ? readGeoTiffInfo(path) : std::nullopt;
-  return info ? *info : readWithGdal(path); // which also reads the files beside a TIFF
+#ifdef TIPP_HAVE_GDAL
+  // GDAL also reads the files beside a TIFF, which may state another grid or the reference system.
+  std::error_code ignored;
+  const bool isAlone = !std::filesystem::exists(path + ".aux.xml", ignored);
+  return info && isAlone && !info->Crs.Text.empty() ? *info : readWithGdal(path);
+#else
+  return info ? *info : readWithGdal(path);
+#endif
 }
 
 } // namespace tipp

@@ -49,7 +49,7 @@ VTKTIPPIO_EXPORT void checkPoints(vtkDataSet* data, const std::string& name);
 
 /// Checks the cells: offsets ascend and end within the vertex ids, types are known and fit the
 /// number of vertices, and all ids are of points that exist. A data set that has not been modified
-/// since its last check is not checked again. `threads` = 0 is OpenMP's default.
+/// since its last check is not checked again. `threads` = 0: usualThreads().
 VTKTIPPIO_EXPORT void checkCells(vtkDataSet* data, const std::string& name, int threads = 0);
 
 /// Checks points and cells, and that no cell array has fewer tuples than there are cells.

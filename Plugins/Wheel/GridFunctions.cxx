@@ -3,12 +3,10 @@
 #include "Binding.h"
 
 #include "Dem/MakeDem.h"
-#include "Dem/RasterTiles.h"
 #include "Flat/FlatMesh.h"
 #include "Parallel/ParallelFor.h"
 #include "Points/ReadPoints.h"
 #include "Predicates/SensibleRange.h"
-#include "Raster/RasterFile.h"
 #include "Resample/Resample.h"
 #include "Sampling/SamplingLattice.h"
 
@@ -190,46 +188,6 @@ nb::tuple makeRaster(const nb::object& points, const nb::dict& options, Progress
   return nb::make_tuple(bands, tupleOf(settings.Grid), system.Text, figures.Rejected);
 }
 
-/// Writes bands as a raster file, by its extension: .tif, .npy or .vti. `bands`: float64 arrays of
-/// the same shape, rows from north to south, NaN for no value. `transform`: width, 0, west, 0,
-/// -height and north of the pixels. `crs` may be empty; `noData` is a GeoTIFF's number for no
-/// value.
-void writeRaster(const std::string& path, const std::vector<InputArray>& bands,
-  const std::vector<std::string>& names, const std::array<double, 6>& transform,
-  const std::string& crs, double noData, bool isCloudOptimized)
-{
-  RasterDescription description;
-  RasterGrid& grid = description.Grid;
-  grid.Rows = std::int64_t(bands.at(0).shape(0));
-  grid.Columns = std::int64_t(bands.at(0).shape(1));
-  grid.Pixel = { transform[0], -transform[4] };
-  grid.West = transform[2];
-  grid.North = transform[5];
-  grid.South = gridPosition(transform[5], transform[4], 2 * grid.Rows);
-  description.Bands = names;
-  description.Crs = crs;
-  description.NoData = noData;
-  description.Double = true;
-  description.CloudOptimized = isCloudOptimized;
-  BandValues values;
-  for (const InputArray& band : bands)
-  {
-    const auto* const rows = static_cast<const double*>(band.data());
-    std::vector<double>& from = values.emplace_back();
-    for (std::int64_t row = grid.Rows - 1; row >= 0; --row)
-    {
-      from.insert(from.end(), rows + row * grid.Columns, rows + (row + 1) * grid.Columns);
-    }
-  }
-  withoutLock(
-    [&]
-    {
-      const auto writer = createRaster(path, description, PendingFile(path).before());
-      writeTiles(*writer, grid, readFrom(grid, values), {}, 0);
-      writer->close();
-    });
-}
-
 /// Bytes per sample: a 32-bit cell number and the mask.
 constexpr double claimBytes = 5;
 
@@ -352,7 +310,6 @@ nb::tuple resampleMesh(const InputArray& points, const InputArray& cells,
 void addGridFunctions(nb::module_& module)
 {
   module.def("dem", &makeRaster);
-  module.def("write_raster", &writeRaster);
   module.def("raster_grid",
     [](const std::array<double, 4>& bounds, double resolution, bool isAligned)
     {

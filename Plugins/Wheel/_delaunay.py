@@ -33,7 +33,7 @@ class Delaunay:
     qhull_options
         Must be None: the result is exact without any options.
     threads
-        OpenMP threads; 0 is OpenMP's default.
+        The number of threads; 0: OMP_NUM_THREADS, else one per processor.
 
     Attributes
     ----------

@@ -395,7 +395,7 @@ def write(mesh: Any, path: str, options: dict[str, Any], progress: Progress | No
             if ghosts:
                 sentences.append(f"{ghosts} ghost cells are left out.")
             cells, cell_data = cells[owned], {name: values[owned] for name, values in cell_data.items()}
-        _core.partition_arrays(plain(mesh.points), np.ascontiguousarray(cells), _numeric_arrays(mesh.point_data),
+        _core.partition_arrays(in_space(plain(mesh.points)), np.ascontiguousarray(cells), _numeric_arrays(mesh.point_data),
                                _numeric_arrays(cell_data), path, options, progress)
         warn(sentences)
     finish(progress)
@@ -461,7 +461,7 @@ def open_part(mesh: Mesh, threads: int) -> Any:
 
 def resample(mesh: Any, options: dict[str, Any], progress: Progress | None) -> Image:
     mesh, _ = _simplices(mesh, "mesh", ("vtkPointSet",), "a mesh")
-    points = plain(np.asarray(mesh.points))
+    points = in_space(plain(np.asarray(mesh.points)))
     low, high = box(points)
     own = np.column_stack([low, high]).ravel().tolist()
     bounds = own if options["bounds"] is None else options["bounds"]

@@ -452,4 +452,5 @@ class vtkTIPPPointReader(Filter):
         vtkPolyData.GetData(outputs, 0).ShallowCopy(cloud)
 
 
-NAMES = tuple(kind.__name__ for kind in Filter.__subclasses__())
+NAMES = tuple(name for name, kind in list(globals().items())
+              if name.startswith("vtk") and isinstance(kind, type) and issubclass(kind, Filter))

@@ -150,7 +150,7 @@ def griddata(points: Any, values: Any, xi: Any, method: str = "linear", fill_val
     rescale
         Whether to scale the points to the unit square or cube first.
     threads
-        OpenMP threads; 0 is OpenMP's default.
+        The number of threads; 0: OMP_NUM_THREADS, else one per processor.
 
     Returns
     -------

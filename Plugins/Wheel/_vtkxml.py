@@ -196,7 +196,7 @@ class _File:
         if ids.ndim != 1 or ends.ndim != 1 or ids.dtype.kind != "i" or ends.dtype.kind != "i" or len(ends) != count:
             self.fail(f"has no list of ids and offsets for {count} {section}")
         starts = np.concatenate([np.zeros(1, np.int64), ends])
-        if (np.diff(starts) < 0).any() or starts[-1] != len(ids):
+        if (starts[1:] < starts[:-1]).any() or starts[-1] != len(ids):  # differences could overflow
             self.fail(f"has offsets of {section} that do not fit their ids")
         if len(ids) and not 0 <= ids.min() <= ids.max() < points:
             self.fail(f"has {section} that refer to points from {ids.min()} to {ids.max()}, but there are {points} points")

@@ -15,7 +15,7 @@ import tempfile
 
 MODULES = ("Accelerators", "IO", "Filters")
 # Headers that do not depend on the system.
-OTHERS = ("nlohmann", "xxhash.h")
+OTHERS = ("nlohmann", "xxhash.h", "CLI", "fmt")
 
 
 def make_includes(folder):
@@ -30,7 +30,8 @@ def make_includes(folder):
 def compile_source(source, top, scratch):
     """Returns the compiler's messages; empty if it accepts the source."""
     command = [sys.executable, "-m", "ziglang", "c++", "-target", "aarch64-macos", "-std=c++17", "-c", "-O0", "-Wall",
-               "-Wextra", "-Werror", "-DTIPP_WITHOUT_VTK", f"-I{scratch}", *(f"-I{top / module}" for module in MODULES),
+               "-Wextra", "-Werror", "-DTIPP_WITHOUT_VTK", "-isystem", str(scratch), "-DFMT_HEADER_ONLY", "-DTIPP_VERSION=\"0\"",
+               *(f"-I{top / module}" for module in (*MODULES, "Tools")),
                source, "-o", f"{scratch}/{source.stem}.o"]
     environment = {**os.environ, "ZIG_GLOBAL_CACHE_DIR": f"{scratch}/cache", "ZIG_LOCAL_CACHE_DIR": f"{scratch}/cache"}
     result = subprocess.run(command, capture_output=True, text=True, env=environment)

@@ -8,7 +8,6 @@ import re
 import sys
 
 MODULES = ("Accelerators", "IO", "Filters", "Tools", "Plugins/Wheel")
-VTK_TOOLS = ("ResampleCommand.cxx", "VtkFiles.cxx", "VtkProcess.cxx")  # NoVtk.cxx replaces them
 OWN = re.compile(r"vtkTIPP\w+Module\.h")  # made by CMake, also in the wheel's build
 
 
@@ -33,7 +32,6 @@ def vtk_headers(top, sources):
 def main():
     top, *sources = map(pathlib.Path, sys.argv[1:])
     wheel = sorted((top / "Plugins/Wheel").glob("*.cxx"))
-    wheel += sorted(file for file in (top / "Tools").rglob("*.cxx") if file.name not in VTK_TOOLS)
     if len(sources) < 50 or not wheel:
         sys.exit("These are not all sources of the wheel.")
     found = [f"{header} is included by {chain}." for header, chain in vtk_headers(top, [*sources, *wheel])]

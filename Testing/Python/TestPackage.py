@@ -33,8 +33,8 @@ def address(array):
 
 def public():
     """What users see of the package."""
-    return [(name, thing) for name, thing in vars(tipp).items()
-            if not name.startswith("_") and not inspect.ismodule(thing)]
+    things = {name: getattr(tipp, name) for name in dir(tipp) if not name.startswith("_")}
+    return [(name, thing) for name, thing in things.items() if not inspect.ismodule(thing)]
 
 
 def memory_of(kind):

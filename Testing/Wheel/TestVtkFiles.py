@@ -109,19 +109,23 @@ class VtkFiles(unittest.TestCase):
             np.testing.assert_array_equal(np.arange(12.0).reshape(3, 4), tipp.as_array(found, "h"))
             np.testing.assert_array_equal(np.arange(6), found.cell_data["c"])
 
-    def test_the_function_gives_data_of_vtk_if_it_is_installed(self):
+    def test_the_function_gives_a_mesh_and_an_image(self):
         mesh, grid = tipp.read(self.path("x.vtp", surface())), tipp.read(self.path("x.vti", image()))
-        self.assertEqual([1.0, 2.0, 3.0, 4.5], tipp.as_array(mesh, "h").tolist())
-        self.assertEqual((3, 4), tipp.as_array(grid, "h").shape)
-        self.assertEqual((HAS_VTK, HAS_VTK), (hasattr(mesh, "GetPolys"), hasattr(grid, "GetOrigin")))
-        if HAS_VTK:
-            self.assertEqual([-1, 1, 1, 2, 3, 4], tipp.as_array(mesh, "id").tolist())  # a vertex has no value
-            self.assertEqual(list(range(6)), tipp.as_array(grid, "c").ravel().tolist())
+        self.assertEqual((tipp.Mesh, tipp.Image), (type(mesh), type(grid)))
+        self.assertEqual([1.0, 2.0, 3.0, 4.5], mesh["h"].tolist())
+        self.assertEqual((3, 4), grid["h"].shape)
+
+    @unittest.skipUnless(HAS_VTK, "VTK is not installed")
+    def test_the_function_gives_data_of_vtk_on_request(self):
+        mesh, grid = (tipp.read(self.path(*file), return_type="vtk") for file in (("x.vtp", surface()), ("x.vti", image())))
+        self.assertEqual(["vtkUnstructuredGrid", "vtkImageData"], [data.GetClassName() for data in (mesh, grid)])
+        self.assertEqual([-1, 1, 1, 2, 3, 4], sorted(tipp.as_array(mesh, "id").tolist()))  # a vertex has no value
+        self.assertEqual(list(range(6)), tipp.as_array(grid, "c").ravel().tolist())
 
     def test_a_grid_of_tetrahedra_is_read(self):
         mesh = tipp.read(self.path("x.vtu", tetrahedron()))
         self.assertEqual([0, 1, 1, 1], sorted(tipp.as_array(mesh, "h").tolist()))
-        self.assertEqual((1, 4), (1, mesh.GetCell(0).GetNumberOfPoints()) if HAS_VTK else mesh.cells.shape)
+        self.assertEqual((1, 4), mesh.cells.shape)
 
     def test_grids_of_other_kinds_name_pyvista(self):
         good = tetrahedron()
@@ -219,7 +223,7 @@ class WrittenByVtk(unittest.TestCase):
         from vtkmodules.vtkIOXML import vtkXMLImageDataWriter, vtkXMLPolyDataWriter
 
         points = np.random.default_rng(2).random((50, 3))
-        mesh = tipp.delaunay_2d(points, point_data={"x": points[:, 0]}, neighbors=True)
+        mesh = tipp.delaunay_2d(points, point_data={"x": points[:, 0]}, neighbors=True, return_type="vtk")
         for data, writer, name in ((mesh, vtkXMLPolyDataWriter(), "x"),
                                    (tipp.resample(mesh, dimensions=(7, 5, 1)), vtkXMLImageDataWriter(), "x")):
             with tempfile.TemporaryDirectory() as folder:
@@ -230,7 +234,7 @@ class WrittenByVtk(unittest.TestCase):
                 with_compression = writer.GetCompressor()
                 writer.SetCompressor(None)
                 writer.Write()
-                again = tipp.read(path)
+                again = tipp.read(path, return_type="vtk")
                 np.testing.assert_array_equal(tipp.as_array(data, name), tipp.as_array(again, name))
                 self.assertEqual((data.GetBounds(), data.GetNumberOfCells()), (again.GetBounds(), again.GetNumberOfCells()))
                 writer.SetCompressor(with_compression)

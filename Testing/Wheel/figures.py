@@ -199,11 +199,11 @@ def report(wheel, peers, alone, debian, count, queries, repeats):
     show(f"{queries} samples of {count} points, 1 thread, beside ten times scipy's tenth",
          f"{samples['tipp']:.2f} s, {samples['scipy']:.2f} s: {ratio:.1f}x", ">= 5x", ratio >= 5)
 
-    for python, kind in ((alone, "tipp.Mesh"), (peers, "vtkPolyData")):
+    for python, kind in ((alone, "without VTK"), (peers, "beside VTK")):
         small = [run(python, "small_calls", 2000) for _ in range(repeats)]
         call, overhead, arrays = (1e6 * min(one[key] for one in small) for key in ("call", "overhead", "arrays"))
-        show(f"delaunay_2d of 1000 points to a {kind}", f"{call:.0f} us", "< 600 us", call < 600)
-        show(f"delaunay_2d of 1000 points to a {kind}, overhead", f"{overhead:.1f} us", "< 20 us", overhead < 20)
+        show(f"delaunay_2d of 1000 points, {kind}", f"{call:.0f} us", "< 600 us", call < 600)
+        show(f"delaunay_2d of 1000 points, {kind}, overhead", f"{overhead:.1f} us", "< 20 us", overhead < 20)
     objects = 1e6 * min(run(peers, "vtk_objects", 2000)["seconds"] for _ in range(repeats))
     print(f"{'of which VTK itself takes for the objects of the mesh':62} {f'{objects:.1f} us':>28}")
     show("delaunay of 1000 points to an array beside VTK, overhead", f"{arrays:.1f} us", "< 20 us", arrays < 20)

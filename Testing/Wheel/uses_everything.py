@@ -29,11 +29,14 @@ def triangulate(folder: pathlib.Path) -> tipp.Mesh:
     np.save(folder / "points.npy", POINTS)
     counts: dict[str, int] = tipp.delaunay_file(folder / "points.npy", folder / "mesh.tipp", memory="64M")
     assert counts["triangles"] == len(triangles)
-    for unavailable in (tipp.delaunay_3d, ranks):
-        try:
-            unavailable(POINTS)
-        except RuntimeError as error:
-            assert "TIPP" in str(error)
+    tetrahedra = tipp.delaunay_3d(POINTS)
+    assert isinstance(tetrahedra, tipp.Mesh) and tetrahedra.cells.shape[1] == 4
+    try:
+        ranks(POINTS)
+    except RuntimeError as error:
+        assert "TIPP" in str(error)
+    else:
+        raise AssertionError("the wheel has no ranks")
     return mesh
 
 

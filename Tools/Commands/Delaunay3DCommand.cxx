@@ -6,6 +6,7 @@
 #include "Distributed3D/DistributedTetrahedralization.h"
 #include "Files/Formats.h"
 #include "Files/PendingOutput.h"
+#include "Files/Platform.h"
 #include "InMemory/TriangulatePoints.h"
 #include "Meshes/MeshFiles.h"
 #include "OutOfCore3D/OutOfCoreTetrahedralization.h"
@@ -17,7 +18,6 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <malloc.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -236,8 +236,7 @@ void triangulateShares(Communicator& ranks, const Delaunay3DArguments& arguments
 int runOutOfCore(const Delaunay3DArguments& arguments)
 {
   checkOutputs(arguments.Output, arguments.Statistics, arguments.Scratch, arguments.Inputs);
-  // With this threshold, large blocks are always returned to the system when they are freed.
-  mallopt(M_MMAP_THRESHOLD, 1 << 20);
+  returnLargeBlocks();
   const auto points = openPointStream(arguments.Inputs, withThinningFile(arguments));
   requireInBounds(arguments.Inputs, arguments.Columns, points->readFigures());
   reportRead(points->readFigures());

@@ -11,6 +11,7 @@
 #include "Files/Formats.h"
 #include "Files/IOError.h"
 #include "Files/PendingOutput.h"
+#include "Files/Platform.h"
 #include "Files/TemporaryPaths.h"
 #include "OutOfCore/ScratchFiles.h"
 #include "Parallel/Stopwatch.h"
@@ -19,7 +20,6 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <malloc.h>
 
 #include <algorithm>
 #include <cmath>
@@ -491,7 +491,7 @@ int runInPieces(const DemArguments& arguments, vtkMultiProcessController* contro
     [&](const TerrainSettings& settings, const TileSource& tiles,
       const std::function<bool(double)>& progress)
     {
-      malloc_trim(0); // return the memory of pieces to the system
+      returnFreedMemory(); // of pieces
       report.Settings = settings;
       return writeRaster(arguments, description, before, tiles, progress, report);
     },

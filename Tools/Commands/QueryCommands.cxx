@@ -9,6 +9,7 @@
 #include "Files/InputFile.h"
 #include "Files/OutputFile.h"
 #include "Files/PendingOutput.h"
+#include "Files/Platform.h"
 #include "Gis/GisFiles.h"
 #include "Npy/NpyFile.h"
 #include "Parallel/ParallelFor.h"
@@ -22,7 +23,6 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <malloc.h>
 
 #include <algorithm>
 #include <array>
@@ -122,9 +122,7 @@ std::unique_ptr<ResidentMesh> openQueryMesh(const QueryMeshArguments& arguments)
 /// message of any exception. Returns the command's exit code.
 int runOnRanks(const std::function<void(Communicator&)>& work)
 {
-  // With this threshold, large blocks, such as pieces, are returned to the system when they are
-  // freed.
-  mallopt(M_MMAP_THRESHOLD, 1 << 20);
+  returnLargeBlocks(); // such as pieces
   const MpiSession session;
   try
   {

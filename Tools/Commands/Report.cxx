@@ -3,12 +3,12 @@
 
 #include "Console/Process.h"
 #include "Files/PendingOutput.h"
+#include "Files/Platform.h"
 #include "Files/RequireApart.h"
 #include "OutOfCore/OutOfCoreOptions.h"
 #include "OutOfCore/OutOfCoreTriangulation.h"
 
 #include <fmt/format.h>
-#include <malloc.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -299,8 +299,7 @@ int runTogether(
 int runOutOfCore(Communicator& ranks, const std::string& title, const OpenPoints& open,
   const std::string& path, OutOfCoreOptions options, OutOfCoreStatistics& statistics)
 {
-  // With this threshold, large blocks are always returned to the system when they are freed.
-  mallopt(M_MMAP_THRESHOLD, 1 << 20);
+  returnLargeBlocks();
   const bool isFirst = ranks.rank() == 0;
   std::unique_ptr<ProgressBar> bar;
   options.Progress = progressOn(bar);

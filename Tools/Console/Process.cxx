@@ -3,17 +3,19 @@
 
 #include "Files/TemporaryPaths.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
-#include <semaphore.h>
+#include <poll.h>
 #include <unistd.h>
 
+#include <array>
 #include <atomic>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <ctime>
 #include <exception>
 #include <mutex>
 #include <new>
@@ -38,8 +40,8 @@ int startedRank()
 namespace
 {
 
-constexpr long grace = 300'000'000; // nanoseconds
-constexpr long second = 1'000'000'000;
+constexpr std::chrono::milliseconds grace(300);
+constexpr std::chrono::milliseconds second(1000);
 
 std::atomic<bool> interrupted{ false };
 std::atomic<bool> terminated{ false };
@@ -47,8 +49,9 @@ static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler sets it"
 std::atomic<bool> isSaid{ false };
 bool isRank = false;
 pid_t parent = 0;
+pid_t owner = 0; ///< the process that waits for signals
 std::atomic<bool> isOrphan{ false };
-sem_t signals;
+std::array<int, 2> signals = { -1, -1 }; ///< a pipe, which gets a byte for each signal
 
 /// Returns the mutex of the right to end the process: the thread that holds it decides how the
 /// process ends. Never destroyed, because threads may still run while static objects are destroyed.
@@ -60,23 +63,21 @@ std::mutex& ending()
 
 extern "C" void onSignal(int number)
 {
+  const int before = errno;
   (number == SIGTERM ? terminated : interrupted) = true;
-  sem_post(&signals);
+  if (getpid() == owner) // not in a forked child, which has the same pipe
+  {
+    [[maybe_unused]] const auto written = write(signals[1], "", 1);
+  }
+  errno = before;
 }
 
 /// Waits for a signal. Returns false if none arrived in time.
-bool waitForSignal(long nanoseconds)
+bool waitForSignal(std::chrono::milliseconds time)
 {
-  timespec until = {};
-  clock_gettime(CLOCK_REALTIME, &until);
-  until.tv_nsec += nanoseconds;
-  until.tv_sec += until.tv_nsec / second;
-  until.tv_nsec %= second;
-  int failed = 0;
-  while ((failed = sem_timedwait(&signals, &until)) != 0 && errno == EINTR)
-  {
-  }
-  return failed == 0;
+  pollfd waiting = { signals[0], POLLIN, 0 };
+  char byte = 0;
+  return poll(&waiting, 1, int(time.count())) > 0 && read(signals[0], &byte, 1) == 1;
 }
 
 void say(const char* what, const std::string& consequence)
@@ -126,7 +127,16 @@ void watchForInterrupt(int rank)
   isSaid = rank > 0;
   isRank = rank >= 0;
   parent = getppid();
-  sem_init(&signals, 0, 0);
+  owner = getpid();
+  if (pipe(signals.data()) != 0)
+  {
+    return; // no file can be opened, either; signals then end the process as usual
+  }
+  for (const int end : signals)
+  {
+    fcntl(end, F_SETFD, FD_CLOEXEC);
+  }
+  fcntl(signals[1], F_SETFL, O_NONBLOCK); // the handler must not wait
   struct sigaction action = {};
   action.sa_handler = onSignal;
   action.sa_flags = SA_RESTART;

@@ -72,7 +72,7 @@ def positions_of(points: Any) -> Any:
         return np.asarray(points.points)
     if is_xarray(points):
         if hasattr(points, "data_vars"):
-            return columns_of(Table(points), "points")
+            return columns_of(Table(points, "points"), "points")
         has_columns = points.ndim == 2 and points.shape[1] in (2, 3) and not points.coords
         return np.asarray(points) if has_columns else raster_points(points, "points")
     if hasattr(points, "geometry") or is_geometry(points):

@@ -2,6 +2,7 @@
 """mesh.tipp on PyVista's data sets: _hook registers it once PyVista is imported."""
 from __future__ import annotations
 
+import os
 from types import ModuleType
 from typing import Any, Iterable, Sequence
 

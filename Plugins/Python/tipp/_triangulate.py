@@ -307,7 +307,7 @@ def delaunay_3d(
         raise ValueError(f"points has the shape {np.shape(points)}; points in space have the shape (n, 3).")
     wants_statistics = check.flag(return_statistics, "return_statistics")
     found, statistics = _engine.delaunay_3d(points, point_data, options, progress_of(progress_bar))
-    mesh = result_of(found, kind)
+    mesh = result_of(found, kind, as_grid=True)
     return (mesh, statistics) if wants_statistics else mesh
 
 

@@ -94,9 +94,14 @@ def _copied(points: np.ndarray, kind: np.dtype) -> vtkDataArray:
                 target[rows, axis] = points[rows, axis] if axis < points.shape[1] else 0
 
     shares = range(0, len(points), _SHARE)
-    with ThreadPoolExecutor(min(_MOST_THREADS, len(os.sched_getaffinity(0)))) as threads:
+    with ThreadPoolExecutor(min(_MOST_THREADS, _processors())) as threads:
         list(map(fill, shares) if len(shares) == 1 else threads.map(fill, shares))
     return result
+
+
+def _processors() -> int:
+    """Returns the number of processors that this process may use; on systems that do not tell, of all."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def _touch(array: np.ndarray) -> None:
@@ -147,6 +152,8 @@ def xyz_of(data: Any) -> np.ndarray:
 def cells_of(ids: np.ndarray) -> vtkCellArray:
     """Returns cells with as many points as the array has columns, in the array's memory."""
     count, size = ids.shape
+    if ids.dtype not in (np.int32, np.int64):
+        ids = ids.astype(np.int64)
     cells = vtkCellArray()
     arrays = np.arange(0, size * count + 1, size, dtype=ids.dtype), np.ascontiguousarray(ids)
     cells.SetData(*(_shared(array, 1) for array in arrays))
@@ -188,7 +195,8 @@ def _set_points(mesh: Mesh, data: Any, result: Any) -> None:
             result.SetPoints(data.GetPoints())
         result.GetPointData().PassData(data.GetPointData())
     for name, values in mesh.point_data.items():
-        if data is None or not result.GetPointData().HasArray(name):
+        # A data set that was triangulated before has its old representatives.
+        if data is None or name == "RepresentativePointId" or not result.GetPointData().HasArray(name):
             _add_arrays({name: values}, result.GetPointData())
 
 

@@ -49,13 +49,20 @@ protected:
   ~WriteGeoKeys() override { setCrsTranslator({}); }
 };
 
+/// The horizontal system's code.
+int horizontalOf(const std::map<int, int>& codes)
+{
+  const auto found = codes.find(codes.count(3072) > 0 ? 3072 : 2048);
+  return found == codes.end() ? 0 : found->second;
+}
+
 TEST_F(WriteGeoKeys, CodesAndKindAreThoseThatGdalWrites)
 {
   std::vector<std::string> systems = { "EPSG:25832+7837", "EPSG:4326+5773", "EPSG:4979" };
   int number = 0;
   const auto add = [&](int code)
   {
-    if (++number % 31 == 0)
+    if (++number % 17 == 0)
     {
       systems.push_back("EPSG:" + std::to_string(code));
     }
@@ -80,8 +87,14 @@ TEST_F(WriteGeoKeys, CodesAndKindAreThoseThatGdalWrites)
     {
       continue;
     }
-    EXPECT_EQ(codesIn(ofGdal), codesIn(geoKeysWithoutGdal(system))) << system;
-    ++compared;
+    // GDAL writes another system in place of a deprecated one, and one of the plane and one of
+    // heights in place of a geographic system in space.
+    const std::map<int, int> codes = codesIn(ofGdal);
+    if (horizontalOf(codes) == std::stoi(system.substr(5)))
+    {
+      EXPECT_EQ(codes, codesIn(geoKeysWithoutGdal(system))) << system;
+      ++compared;
+    }
   }
   EXPECT_GT(compared, 20) << "GDAL is not there";
 }
@@ -95,9 +108,11 @@ TEST_F(WriteGeoKeys, CodesOfWktAreThoseOfTheRoot)
 
 TEST_F(WriteGeoKeys, OtherTextsAreRefused)
 {
-  for (const char* const text : { "EPSG:99999", "EPSG:5773", "EPSG:25832+25833", "EPSG:25832x",
-         "EPSG:25832+", "EPSG:-1", "EPSG:99999999999999999999", "PROJCS[\"x\"]", "ESRI:102003",
-         "COMPD_CS[\"c\",PROJCS[\"p\",AUTHORITY[\"EPSG\",\"25832\"]],VERT_CS[\"h\"]]" })
+  for (const char* const text :
+    { "EPSG:99999", "EPSG:5773", "EPSG:25832+25833", "EPSG:25832x", "EPSG:25832+", "EPSG:-1",
+      "EPSG:99999999999999999999", "EPSG:4294993128", "PROJCS[\"x\"]", "ESRI:102003",
+      " COMPD_CS[\"c\",PROJCS[\"p\",AUTHORITY[\"EPSG\",\"25832\"]],VERT_CS[\"h\"]]",
+      "COMPD_CS[\"c\",PROJCS[\"p\",AUTHORITY[\"EPSG\",\"25832\"]],VERT_CS[\"h\"]]" })
   {
     expectIOError(
       "The coordinate reference system", "give --crs EPSG:CODE", [&] { geoKeysWithoutGdal(text); });

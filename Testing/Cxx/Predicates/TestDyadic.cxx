@@ -230,6 +230,13 @@ TEST(Dyadic, RootIsTheNearestDouble)
   }
 }
 
+TEST(Dyadic, RootBelowTheSmallestDoubleIsZero)
+{
+  const Dyadic square = Dyadic(Smallest) * Dyadic(Smallest); // 2^-2148
+  EXPECT_EQ(Smallest, tipp::nearestRoot(square, 1));
+  EXPECT_EQ(0, tipp::nearestRoot(square, 16));
+}
+
 TEST(Fraction, OperationsAreThoseOfRationals)
 {
   std::mt19937_64 random(6);
