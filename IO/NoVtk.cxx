@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Replaces everything that reads VTK's files, in a build without VTK.
+#include "NoVtk.h"
+
 #include "Constraints/ReadConstraintFile.h"
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
@@ -16,31 +18,42 @@ namespace tipp
 namespace
 {
 
-/// Throws IOError: `done` is what a line of Python with PyVista does with the file, and
-/// `statements` are the line, where FILE is the file's name.
-[[noreturn]] void refuse(const std::string& path, const std::string& done, std::string statements)
+/// The expression of Python that reads the file.
+std::string readingOf(const std::string& path)
+{
+  return "pyvista.read('" + shownPath(path) + "')";
+}
+
+/// Throws IOError. `advice`: what a line of Python with PyVista does with the file; `line`: that
+/// line.
+[[noreturn]] void refuse(
+  const std::string& path, const std::string& advice, const std::string& line)
 {
   const InputFile readable(path); // a file that is not there is reported as such
-  const std::string placeholder = "FILE";
-  statements.replace(statements.find(placeholder), placeholder.size(), shownPath(path));
   throw IOError(path,
-    "is a file that VTK reads, and this tipp was built without VTK; " + done + ": python -c \"" +
-      statements + "\".");
+    "is a file that VTK reads, and this tipp was built without VTK; " + advice + ": python -c \"" +
+      line + "\".");
 }
 
 [[noreturn]] void refuseCells(const std::string& path)
 {
   refuse(path, "PyVista writes its cells",
-    "import numpy, pyvista; numpy.save('cells.npy', "
-    "*pyvista.read('FILE').cast_to_unstructured_grid().cells_dict.values())");
+    "import numpy, pyvista; numpy.save('cells.npy', *" + readingOf(path) +
+      ".cast_to_unstructured_grid().cells_dict.values())");
 }
 
 } // namespace
 
+void refuseVtkMesh(const std::string& path)
+{
+  refuse(path, "PyVista makes a partitioned mesh of it",
+    "import pyvista, tipp; tipp.write(" + readingOf(path) + ", 'mesh.tipp')");
+}
+
 PointTable readVtkPoints(const std::string& path)
 {
   refuse(path, "PyVista writes its points",
-    "import numpy, pyvista; numpy.save('points.npy', pyvista.read('FILE').points)");
+    "import numpy, pyvista; numpy.save('points.npy', " + readingOf(path) + ".points)");
 }
 
 ConstraintTable readVtkConstraints(const std::string& path)
@@ -72,8 +85,7 @@ StoredTetrahedra readVtkTetrahedra(const std::string& path)
 PartitionStatistics partitionVtkFile(
   const std::string& path, const std::string&, const PartitionOptions&, vtkMultiProcessController*)
 {
-  refuse(path, "PyVista reads it for the package",
-    "import pyvista, tipp; tipp.write(pyvista.read('FILE'), 'mesh.tipp')");
+  refuseVtkMesh(path);
 }
 
 } // namespace tipp

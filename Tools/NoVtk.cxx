@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Replaces everything that needs VTK, in a build without it: ranks, VTK's files and resampling.
+#include "NoVtk.h"
 #include "Commands/Commands.h"
 #include "Commands/LeftOut.h"
 #include "Commands/VtkFiles.h"
 #include "Console/Process.h"
-#include "Files/IOError.h"
-#include "Files/InputFile.h"
-#include "Files/TemporaryPaths.h"
 
 #include <stdexcept>
 #include <string>
@@ -44,20 +42,12 @@ int MpiSession::ranks() const
 
 MeshPart readVtkPart(const std::string& path, int)
 {
-  const InputFile readable(path); // a file that is not there is reported as such
-  throw IOError(path,
-    "is no partitioned mesh but a file that VTK reads, and this tipp was built without VTK; "
-    "PyVista makes one of it: python -c \"import pyvista, tipp; tipp.write(pyvista.read('" +
-      shownPath(path) + "'), 'mesh.tipp')\".");
+  refuseVtkMesh(path);
 }
 
 void flattenVtkFile(const std::string& path, const std::function<void(const Flattened& flattened)>&)
 {
-  const InputFile readable(path);
-  throw IOError(path,
-    "is a file that VTK reads, and this tipp was built without VTK; PyVista makes a partitioned "
-    "mesh of it: python -c \"import pyvista, tipp; tipp.write(pyvista.read('" +
-      shownPath(path) + "'), 'mesh.tipp')\".");
+  refuseVtkMesh(path);
 }
 
 void addResampleCommand(CLI::App& app, int&)

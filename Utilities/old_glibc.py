@@ -44,8 +44,8 @@ def make_library(compiler, folder, name, symbols):
     for i, (symbol, (_, version, kind)) in enumerate(sorted(symbols.items())):
         section = {"TLS": ".section .tbss,\"awT\",%nobits", "OBJECT": ".data"}.get(kind, ".text")
         kind = {"TLS": "%tls_object", "OBJECT": "%object"}.get(kind, "%function")
-        lines += [section, f".globl stub{i}", f".type stub{i}, {kind}", f"stub{i}: .skip 8", f".size stub{i}, 8",
-                  f".symver stub{i}, {symbol}@@@{version}"]
+        lines += [section, f".globl symbol{i}", f".type symbol{i}, {kind}", f"symbol{i}: .skip 8", f".size symbol{i}, 8",
+                  f".symver symbol{i}, {symbol}@@@{version}"]
     versions = sorted({(number, version) for number, version, _ in symbols.values()})
     source, script = folder / f"{name}.s", folder / f"{name}.map"
     source.write_text("\n".join([*lines, '.section .note.GNU-stack,"",%progbits', ""]))

@@ -3,9 +3,9 @@
 # Builds the source distribution, and from it the Python wheel:
 #   sh Utilities/wheel.sh [FOLDER [PYTHON]]
 # FOLDER (default: wheels) gets both. PYTHON (default: python3) is 3.11 or newer; with 3.12 or newer, the wheel also works
-# with later versions. Tools from PyPI are installed in build-wheel. On
-# Linux with GNU's C library, the wheel is one for manylinux_2_28, also if this system is newer. TIPP_REPOSITORY, if set, is
-# the address of the repository's files for the links of the page on PyPI, such as https://HOST/OWNER/NAME/blob/main.
+# with later versions. Tools from PyPI are installed in build-wheel. On Linux with GNU's C library, the wheel is one for
+# manylinux_2_28, also if this system is newer. TIPP_REPOSITORY, if set, is the address of the repository's files for the
+# links of the page on PyPI, such as https://HOST/OWNER/NAME/blob/main.
 set -eu
 
 cd "$(dirname "$0")/.."

@@ -16,7 +16,7 @@ namespace tipp
 struct ThreadPool::Team
 {
   const std::function<void(int)>& Work;
-  int Busy = 0; ///< of the helpers
+  int Busy = 0; ///< workers that have not finished
   std::condition_variable Done = {};
 };
 

@@ -21,8 +21,8 @@ public:
   static ThreadPool& instance();
 
   /// Calls work(0) in this thread and work(1) ... work(threads - 1) in others, and returns when all
-  /// have returned. Calls fewer if the system does not start so many threads, and only work(0)
-  /// within other work. `work` must not throw.
+  /// have returned. Makes fewer calls if the system cannot start that many threads, and only
+  /// work(0) within other work. `work` must not throw.
   void run(int threads, const std::function<void(int)>& work);
 
   /// The argument with which run() called the innermost work in this thread; 0 outside of work.

@@ -14,8 +14,8 @@ namespace tipp
 ///@{
 
 /// Calls work(0) in this thread and work(1) ... work(threads - 1) in others, and returns when all
-/// have returned. Makes fewer calls if so many threads are not to be had, and only work(0) within
-/// other such work. `work` must not throw.
+/// have returned. Makes fewer calls if the system cannot start that many threads, and only work(0)
+/// within other such work. `work` must not throw.
 VTKTIPPACCELERATORS_EXPORT void runOnThreads(int threads, const std::function<void(int)>& work);
 
 /// The argument with which runOnThreads() called the innermost work in this thread; 0 outside.

@@ -25,7 +25,7 @@ std::uint64_t patternOf(double value)
 } // namespace
 
 Dyadic::Dyadic(std::ptrdiff_t low, std::size_t count)
-  : Heap(count > this->Own.size() ? new std::uint64_t[count] : nullptr)
+  : Heap(count > OwnCount ? new std::uint64_t[count] : nullptr)
   , Count(count)
   , Low(low)
 {

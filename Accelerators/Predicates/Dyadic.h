@@ -72,9 +72,10 @@ private:
   }
 
   std::unique_ptr<std::uint64_t[]> Heap; ///< null if Own holds the digits
-  std::array<std::uint64_t, 16> Own;     ///< lowest digit first
-  std::size_t Count = 0;                 ///< the last digit is not 0
-  std::ptrdiff_t Low = 0;                ///< the first digit counts 2^(64 * Low)
+  static constexpr std::size_t OwnCount = 16;
+  std::array<std::uint64_t, OwnCount> Own; ///< lowest digit first
+  std::size_t Count = 0;                   ///< the last digit is not 0
+  std::ptrdiff_t Low = 0;                  ///< the first digit counts 2^(64 * Low)
   bool Negative = false;
 };
 

@@ -406,8 +406,8 @@ void RasterSink::sampleByTile(Part& part, const std::vector<TriangleRange>& tria
       const double* const b = &part.XYZ[3 * std::size_t(corners[1])];
       const double* const c = &part.XYZ[3 * std::size_t(corners[2])];
       const RasterWindow window =
-        this->windowOf({ std::min({ a[0], b[0], c[0] }), std::min({ a[1], b[1], c[1] }),
-          std::max({ a[0], b[0], c[0] }), std::max({ a[1], b[1], c[1] }) });
+        this->windowOf({ { std::min({ a[0], b[0], c[0] }), std::min({ a[1], b[1], c[1] }) },
+          { std::max({ a[0], b[0], c[0] }), std::max({ a[1], b[1], c[1] }) } });
       forTiles(this->Settings.Grid, window,
         [&](std::int64_t number, const RasterWindow& inTile)
         {

@@ -16,8 +16,11 @@ struct StatedCodes
   int Heights = 0;
 };
 
-/// Reads the codes of a text: "EPSG:code", "EPSG:code+code", or those that a WKT states for the
-/// whole system or, if it is compound, for its two parts.
+/// Reads "CODE" or "CODE+CODE". Returns no codes for any other text.
+StatedCodes codesIn(const std::string& text);
+
+/// Reads the codes of a system: "EPSG:CODE", "EPSG:CODE+CODE", or those that a WKT states for the
+/// whole system or, if it is compound, for its two parts. Returns no codes for any other text.
 VTKTIPPIO_EXPORT StatedCodes codesOf(const std::string& text);
 
 /// Whether the text has a system of heights besides the horizontal one.

@@ -8,10 +8,8 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cstdint>
 #include <iterator>
-#include <system_error>
 #include <utility>
 
 namespace tipp
@@ -40,19 +38,6 @@ bool areKnown(const StatedCodes& codes)
     (codes.Heights == 0 || has(verticalCodes, codes.Heights));
 }
 
-/// Reads "CODE" or "CODE+CODE". Returns no codes for any other text.
-StatedCodes codesIn(const std::string& text)
-{
-  const char* const end = text.data() + text.size();
-  StatedCodes codes;
-  std::from_chars_result read = std::from_chars(text.data(), end, codes.Horizontal);
-  if (read.ec == std::errc() && read.ptr != end && *read.ptr == '+')
-  {
-    read = std::from_chars(read.ptr + 1, end, codes.Heights);
-  }
-  return read.ec == std::errc() && read.ptr == end ? codes : StatedCodes();
-}
-
 bool startsWith(const std::string& text, const std::string& start)
 {
   return text.compare(0, start.size(), start) == 0;
@@ -61,15 +46,8 @@ bool startsWith(const std::string& text, const std::string& start)
 /// Returns the codes that describe all of the system; none if the text states other codes or none.
 StatedCodes completeCodes(const std::string& crs)
 {
-  std::string prefix = crs.substr(0, 5);
-  std::transform(prefix.begin(), prefix.end(), prefix.begin(),
-    [](char c) { return c >= 'a' && c <= 'z' ? char(c - 'a' + 'A') : c; });
-  if (prefix == "EPSG:")
-  {
-    return codesIn(crs.substr(prefix.size()));
-  }
   const StatedCodes codes = codesOf(crs);
-  return hasHeightSystem(withoutBlanks(crs)) && codes.Heights == 0 ? StatedCodes() : codes;
+  return hasHeightSystem(crs) && codes.Heights == 0 ? StatedCodes() : codes;
 }
 
 std::vector<TiffField> translated(const std::string& crs)
@@ -121,8 +99,7 @@ std::vector<TiffField> geoKeysWithoutGdal(const std::string& crs)
       : std::string("' states no EPSG code");
     throw IOError("The coordinate reference system '" + shownText(crs) + problem +
       ", and this tipp was built without GDAL; give --crs EPSG:CODE, or install what translates "
-      "it: "
-      "'pip install pyproj rasterio'.");
+      "it: 'pip install pyproj rasterio'.");
   }
   return fields;
 }

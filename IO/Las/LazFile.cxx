@@ -52,7 +52,7 @@ std::uint64_t pointsOfLayers(const InputFile& file, const LazFormat& format, std
   return at + 4 <= file.size() ? valueIn<std::uint32_t>(file, at) : 0;
 }
 
-/// The chunks that a table has of so many points.
+/// The chunks of a table that hold the file's points.
 struct ChunksOfTable
 {
   std::vector<LazChunkPlace> Chunks;

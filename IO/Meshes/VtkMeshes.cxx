@@ -39,8 +39,8 @@ namespace tipp
 namespace
 {
 
-// The data set is only read, so the const_cast is safe. std::int64_t
-// and VTK's 64-bit integer differ only in name (long and long long).
+/// Returns an array in the caller's memory. The data set is only read, so the const_cast is safe.
+/// std::int64_t and VTK's 64-bit integer differ only in name (long and long long).
 template <typename Array, typename Value>
 vtkSmartPointer<Array> borrow(const Value* values, std::size_t count)
 {

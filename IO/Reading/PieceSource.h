@@ -125,7 +125,7 @@ Piece gatherCells(const std::vector<const Piece*>& pieces, const std::vector<Cel
 /// Merges pieces; cells are in the pieces' order. A cell that one of them owns is no ghost.
 Piece mergePieces(const std::vector<const Piece*>& pieces);
 
-/// Throws IOError if a range hardly is what is meant: see requireSensible() of Predicates.
+/// Throws IOError if a range is probably a mistake: see requireSensible() of Predicates.
 void requireSensible(const PartitionedMesh& mesh, const Box3& range);
 
 /// Selects cells that share a point with a closed box, decided exactly; triangles by x and y alone.

@@ -293,9 +293,6 @@ def tetrahedra(points: Any, point_data: Any, options: dict[str, Any],
 
         array, data, source = plain(xyz_of(points)), {}, points
     else:
-        if isinstance(points, Mesh):
-            point_data = {**points.point_data, **(point_data or {})}
-            points = points.points
         array = in_space(plain(coordinates(points)))
         data = attributes(point_data, len(array))
     if options["bound"] and len(array):

@@ -24,8 +24,8 @@ function (tipp_without_vtk result)
   set(${result} "${sources}" PARENT_SCOPE)
 endfunction ()
 
-# A target that is not built, in place of a program that needs VTK: its folder sets properties of it.
-function (tipp_add_placeholder name)
-  file(WRITE "${CMAKE_BINARY_DIR}/Placeholder.cxx" "")
-  add_library(${name} OBJECT EXCLUDE_FROM_ALL "${CMAKE_BINARY_DIR}/Placeholder.cxx")
+# Leaves out a program of tests that need VTK. Its folder sets properties of the target, so there is one that is never built.
+function (tipp_leave_out_program name)
+  file(WRITE "${CMAKE_BINARY_DIR}/Empty.cxx" "")
+  add_library(${name} OBJECT EXCLUDE_FROM_ALL "${CMAKE_BINARY_DIR}/Empty.cxx")
 endfunction ()

@@ -166,10 +166,7 @@ int runInMemory(const Delaunay3DArguments& arguments)
   }
   report(arguments, mesh, triangles, seconds,
     statisticsOf(mesh, count, std::int64_t(mesh.cellCount())), "");
-  for (const std::string& warning : warningsOf(mesh, count))
-  {
-    fmt::print(stderr, "tipp: warning: {}\n", warning);
-  }
+  printWarnings(warningsOf(mesh, count));
   return Success;
 }
 
@@ -208,10 +205,7 @@ void writeOnFirst(Communicator& ranks, const Delaunay3DArguments& arguments,
   }
   report(arguments, all, triangles, seconds, statisticsOf(mine),
     fmt::format(", {} ranks of {} threads", ranks.size(), mine.Statistics.ThreadsPerRank));
-  for (const std::string& warning : warningsOf(mine))
-  {
-    fmt::print(stderr, "tipp: warning: {}\n", warning);
-  }
+  printWarnings(warningsOf(mine));
 }
 
 /// Triangulates on all ranks, in memory. Every rank reads its share of the points; the first one
@@ -262,6 +256,7 @@ int runOutOfCore(const Delaunay3DArguments& arguments)
   json.update(jsonOf(statisticsOf(made)));
   reportLeftOut(made.LeftOut, made.ThinnedOut);
   reportRun(arguments.Statistics, json, seconds);
+  printWarnings(warningsOf(made));
   return Success;
 }
 

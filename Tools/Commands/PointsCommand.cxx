@@ -136,10 +136,7 @@ std::string describe(const LasReport& report)
 
 void warn(const LasReport& report)
 {
-  for (const std::string& warning : report.Warnings)
-  {
-    fmt::print(stderr, "tipp: warning: {}\n", warning);
-  }
+  printWarnings(report.Warnings);
   if (report.NotFinite > 0)
   {
     fmt::print(stderr, "tipp: warning: {} left out, since x, y or z is not a number.\n",

@@ -173,6 +173,14 @@ nlohmann::ordered_json jsonOf(const ReadFigures& figures)
     { "chunks", figures.SkippedChunks } };
 }
 
+void printWarnings(const std::vector<std::string>& warnings)
+{
+  for (const std::string& warning : warnings)
+  {
+    fmt::print(stderr, "tipp: warning: {}\n", warning);
+  }
+}
+
 void warnOfNoTriangles(std::int64_t triangles)
 {
   if (triangles == 0)

@@ -68,6 +68,9 @@ nlohmann::ordered_json jsonOf(const FigureList& list);
 /// Returns an object with what was not read.
 nlohmann::ordered_json jsonOf(const ReadFigures& figures);
 
+/// Prints warnings, each one sentence.
+void printWarnings(const std::vector<std::string>& warnings);
+
 /// Prints a warning if a run has made no triangles.
 void warnOfNoTriangles(std::int64_t triangles);
 

@@ -11,7 +11,6 @@
 #include "Npy/NpyFile.h"
 #include "OpenCL/Devices.h"
 #include "Partitioned/PartitionedMesh.h"
-#include "Predicates/SensibleRange.h"
 #include "Ranks/Communicator.h"
 #include "Raster/RasterFile.h"
 #include "Reading/PieceSource.h"
@@ -255,9 +254,8 @@ struct StoredMesh
   std::int64_t CellsInRange = 0; ///< cells of the pieces that meet the range
 };
 
-StoredMesh describe(const ResampleArguments& arguments)
+StoredMesh describe(const PartitionedMesh& mesh, const ResampleArguments& arguments)
 {
-  const PartitionedMesh mesh = openPartitionedMesh(arguments.Input);
   StoredMesh stored;
   stored.IsSurface = mesh.CellSize == 3;
   const bool isWhole = arguments.Bounds.empty();
@@ -295,21 +293,6 @@ void requireZ(const ResampleArguments& arguments, bool hasVolumes)
   }
 }
 
-/// Throws IOError if a range hardly is what is meant.
-void requireSensible(
-  const ResampleArguments& arguments, const Box3& range, const StoredMesh& stored)
-{
-  try
-  {
-    requireSensible(range, stored.Extent,
-      stored.IsSurface ? std::vector<int>{ 0, 1 } : std::vector<int>{ 0, 1, 2 });
-  }
-  catch (const std::runtime_error& error)
-  {
-    throw IOError(arguments.Input, std::string("cannot be resampled: ") + error.what());
-  }
-}
-
 std::optional<double> connectStored(const ResampleArguments& arguments, Communicator& ranks,
   vtkRangeResampleFilter* filter, ErrorKeeper* reading)
 {
@@ -319,7 +302,8 @@ std::optional<double> connectStored(const ResampleArguments& arguments, Communic
     [&]
     {
       time = timeOf(arguments, reader);
-      const StoredMesh stored = describe(arguments);
+      const PartitionedMesh mesh = openPartitionedMesh(arguments.Input);
+      const StoredMesh stored = describe(mesh, arguments);
       selectStoredArrays(arguments, stored, reader, filter);
       requireZ(arguments, !stored.IsSurface);
       if (stored.Extent.isEmpty())
@@ -329,7 +313,7 @@ std::optional<double> connectStored(const ResampleArguments& arguments, Communic
       // The filter cannot find the range itself, because it reads the mesh piece by piece.
       const Box3 bounds =
         arguments.Bounds.empty() ? stored.Extent : boxOfVtkBounds<3>(arguments.Bounds.data());
-      requireSensible(arguments, bounds, stored);
+      requireSensible(mesh, bounds);
       filter->UseInputBoundsOff();
       filter->SetSamplingBounds(vtkBoundsOf(bounds).data());
       if (!arguments.Dimensions.empty())

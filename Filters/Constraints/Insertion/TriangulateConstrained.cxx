@@ -162,8 +162,9 @@ void nameRepresentatives(const std::vector<Duplicate>& duplicates, std::vector<I
 }
 
 /// Turns a triangulation of points into the constrained Delaunay triangulation with these segments,
-/// in place. `inserted`: segments that are already edges of it. No two segments may cross.
-/// Afterwards the segments refer to representatives, and are split at the vertices on them.
+/// in place. `inserted`: the segments that are edges of the triangulation already. No two segments
+/// may cross. Afterwards the segments refer to representatives, and are split at the vertices on
+/// them.
 ///
 /// Only triangles that a segment crosses change. Segments that cross a common triangle form one
 /// job, with all triangles that they cross; jobs are independent of each other. A job's new

@@ -41,7 +41,7 @@ SegmentTiles::SegmentTiles(
   }
   constexpr double relative = 0x1p-44; // relative to the largest coordinate
   this->Margin = count == 0 ? 0 : relative * domain.largest();
-  this->Boxes = count == 0 ? Tiling::grid({ 0, 0, 0, 0 }, 1, 1)
+  this->Boxes = count == 0 ? Tiling::grid({ { 0, 0 }, { 0, 0 } }, 1, 1)
                            : Tiling::balanced(domain, std::move(sample), tiles);
   this->Rows = std::make_unique<KeyedRows>(
     file + ".tiles", std::size_t(this->Boxes.size()), sizeof(SegmentTree::Item));
@@ -128,7 +128,7 @@ Point2 endOfCovered(const SegmentTree::Item& segment, const NearSegments& all)
   const auto [low, high] = orderedEnds(segment);
   Point2 end = low;
   all.visitOn(low,
-    [&, low = low, high = high](std::size_t i)
+    [&, high = high](std::size_t i)
     {
       const SegmentTree::Item& other = all.segments()[i];
       const auto [otherLow, otherHigh] = orderedEnds(other);

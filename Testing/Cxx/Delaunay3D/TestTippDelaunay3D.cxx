@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include <array>
+#include <cmath>
 #include <fstream>
 #include <iomanip>
 #include <set>
@@ -55,6 +56,20 @@ TEST_F(TippDelaunay3D, MeshesPassTheCheck)
       const Outcome checked = this->run({ "check", "points.csv", mesh, "--tie-rule" });
       EXPECT_NE(std::string::npos, checked.Out.find("correct")) << checked.Out;
     }
+  }
+}
+
+TEST_F(TippDelaunay3D, PointsThatAreNotFiniteGiveAWarning)
+{
+  std::vector<tipp::Point3> points = pointsInSpace("uniform", 100);
+  points[5].x = NAN;
+  this->write("points.csv", points);
+  for (const char* const mesh : { "mesh.vtu", "mesh.tipp" })
+  {
+    const Outcome outcome = this->run({ "delaunay3d", "points.csv", "-o", mesh });
+    EXPECT_NE(std::string::npos,
+      outcome.Err.find("tipp: warning: 1 of 100 points have a NaN or infinite coordinate"))
+      << outcome.Err;
   }
 }
 
