@@ -387,7 +387,8 @@ public:
 
   ///@{
   /**
-   * The OpenMP threads to use. 0 (the default) leaves it to OpenMP: OMP_NUM_THREADS, or all cores.
+   * The number of OpenMP threads. 0 (the default): OMP_NUM_THREADS, or as many as the processors
+   * that this process may use, by its affinity, its control group and the ranks on this computer.
    */
   vtkTIPPClampedMacro(NumberOfThreads, int, 0, 4096);
   ///@}

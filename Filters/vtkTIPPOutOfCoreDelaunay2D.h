@@ -222,7 +222,8 @@ public:
 
   ///@{
   /**
-   * Number of threads. Default 0: OpenMP's default.
+   * The number of threads. 0 (the default): OMP_NUM_THREADS, or as many as the processors that
+   * this process may use, by its affinity, its control group and the ranks on this computer.
    */
   vtkTIPPClampedMacro(NumberOfThreads, int, 0, 4096);
   ///@}

@@ -207,7 +207,8 @@ public:
 
   ///@{
   /**
-   * The number of OpenMP threads. 0 (the default) is OpenMP's choice.
+   * The number of OpenMP threads. 0 (the default): OMP_NUM_THREADS, or as many as the processors
+   * that this process may use, by its affinity, its control group and the ranks on this computer.
    */
   vtkTIPPClampedMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
   ///@}

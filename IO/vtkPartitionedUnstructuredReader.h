@@ -142,8 +142,9 @@ public:
 
   ///@{
   /**
-   * Number of threads that read pieces, or load and partition a flat mesh. Default 0: OpenMP's
-   * default.
+   * Number of threads that read pieces, or load and partition a flat mesh. 0 (the
+   * default): OMP_NUM_THREADS, or as many as the processors that this process may use, by its
+   * affinity, its control group and the ranks on this computer.
    */
   vtkTIPPClampedMacro(NumberOfThreads, int, 0, 4096);
   ///@}

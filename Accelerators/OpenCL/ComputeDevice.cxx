@@ -3,8 +3,6 @@
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Stopwatch.h"
 
-#include <omp.h>
-
 #include <algorithm>
 #include <cstring>
 #include <memory>
@@ -353,12 +351,6 @@ ComputeDevice::Stage& ComputeDevice::stage(std::size_t index) const
 
 void ComputeDevice::enqueue(const cl::Kernel& kernel, std::size_t items) const
 {
-  if (this->Description.Type == DeviceType::Cpu)
-  {
-    // After a parallel loop OpenMP's threads spin for some milliseconds on cores that a CPU device
-    // needs.
-    omp_pause_resource_all(omp_pause_soft);
-  }
   // Rounded up to whole work groups: for a prime number of items some drivers choose groups of one.
   constexpr std::size_t usual = 64;
   const auto own = kernel.getWorkGroupInfo<CL_KERNEL_COMPILE_WORK_GROUP_SIZE>(this->Device);

@@ -4,6 +4,7 @@
 
 #include "Parallel/Poll.h"
 #include "Parallel/Threads.h"
+#include "Parallel/UsableProcessors.h"
 
 #include <algorithm>
 #include <atomic>
@@ -55,11 +56,15 @@ bool forChunks(
       }
       try
       {
-        if (thread == 0 && report && !report(double(begin) / double(count)))
+        if (thread == 0)
         {
-          wanted = false;
-          stopped = true;
-          break;
+          ThreadPool::keepOthersOff();
+          if (report && !report(double(begin) / double(count)))
+          {
+            wanted = false;
+            stopped = true;
+            break;
+          }
         }
         body(begin, std::min(begin + chunk, count), thread);
       }
@@ -75,7 +80,7 @@ bool forChunks(
       }
     }
   };
-  runOnThreads(count > chunk ? threads : 1, std::cref(takeChunks));
+  runOnThreads(count > chunk ? threads : 1, takeChunks);
   if (error)
   {
     std::rethrow_exception(error);
@@ -142,9 +147,8 @@ class ThreadLimit
 {
 public:
   explicit ThreadLimit(int threads)
-    : Before(usualThreads())
+    : Before(setUsualThreads(threads > 0 ? threadCount(threads) : usualThreads()))
   {
-    setUsualThreads(threadCount(threads));
   }
   ~ThreadLimit() { setUsualThreads(this->Before); }
   ThreadLimit(const ThreadLimit&) = delete;

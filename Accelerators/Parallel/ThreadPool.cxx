@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Parallel/ThreadPool.h"
 
+#include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <exception>
 #include <memory>
@@ -9,23 +12,18 @@
 
 #include <pthread.h>
 
+#ifdef _OPENMP
+#include <omp.h>
+#endif
+
+#ifdef __linux__
+#include <sched.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+#endif
+
 namespace tipp
 {
-
-/// The threads of one run().
-struct ThreadPool::Team
-{
-  const std::function<void(int)>& Work;
-  int Busy = 0; ///< workers that have not finished
-  std::condition_variable Done = {};
-};
-
-struct ThreadPool::Worker
-{
-  std::condition_variable Wake;
-  ThreadPool::Team* Team = nullptr; ///< null while it is idle
-  int Number = 0;
-};
 
 namespace
 {
@@ -33,17 +31,176 @@ namespace
 thread_local int currentNumber = 0;
 thread_local bool isInWork = false;
 
-/// Calls work(number), and then restores this thread's state.
-void callAs(int number, const std::function<void(int)>& work) noexcept
+/// Does one share, and then restores this thread's state.
+void doShare(int number, const SharedWork& work) noexcept
 {
   const int numberBefore = std::exchange(currentNumber, number);
   const bool wasInWork = std::exchange(isInWork, true);
-  work(number);
+  work.Call(work.Object, number);
   currentNumber = numberBefore;
   isInWork = wasInWork;
 }
 
+/// Whether this thread does work already, ours or that of an OpenMP region of the application:
+/// more threads would not make it faster.
+bool isAlreadyParallel()
+{
+#ifdef _OPENMP
+  return isInWork || omp_in_parallel() != 0;
+#else
+  return isInWork;
+#endif
+}
+
+#ifdef __linux__
+
+/// Where the system may run a thread of the pool.
+struct Placement
+{
+  int Thread = 0; ///< the system's number; 0 if it has not started
+  cpu_set_t Set = {};
+};
+
+int currentThread()
+{
+  return static_cast<int>(syscall(SYS_gettid));
+}
+
+/// The processors that a team may use.
+class Processors
+{
+public:
+  Processors()
+    : AreSeveral(sched_getaffinity(0, sizeof this->Allowed, &this->Allowed) == 0 &&
+        CPU_COUNT(&this->Allowed) > 1)
+  {
+    this->follow();
+  }
+
+  /// Returns whether the calling thread has moved to another processor.
+  bool follow()
+  {
+    const int now = this->AreSeveral ? sched_getcpu() : -1;
+    return now >= 0 && std::exchange(this->Callers, now) != now;
+  }
+
+  /// Keeps another thread off the calling thread's processor.
+  void keepOff(Placement& other) const
+  {
+    if (this->Callers < 0 || other.Thread == 0)
+    {
+      return;
+    }
+    cpu_set_t others = this->Allowed;
+    CPU_CLR(this->Callers, &others);
+    if (!CPU_EQUAL(&others, &other.Set))
+    {
+      other.Set = others;
+      sched_setaffinity(other.Thread, sizeof others, &others); // if refused, work is only slower
+    }
+  }
+
+private:
+  cpu_set_t Allowed = {};
+  bool AreSeveral;
+  int Callers = -1; ///< the calling thread's processor
+};
+
+#else
+
+struct Placement
+{
+  int Thread = 0;
+};
+
+int currentThread()
+{
+  return 0;
+}
+
+/// Other systems do not say on which processor a thread runs.
+class Processors
+{
+public:
+  static bool follow() { return false; }
+  static void keepOff(Placement& /*other*/) {}
+};
+
+#endif
+
 } // namespace
+
+/// One run(): its work, and the workers that help.
+struct ThreadPool::Team
+{
+  const SharedWork Work;
+  const int Shares;
+  std::atomic<int> Next{ 1 }; ///< the first share that nobody has begun
+  std::atomic<int> Busy{ 0 }; ///< workers that have begun and not finished
+  Worker* First = nullptr;    ///< a list of all workers
+  Processors Allowed = {};
+  std::condition_variable Finished = {};
+
+  void doShares();
+  void add(Worker& worker);
+  void remove(const Worker& worker);
+  void keepOff() const;
+  void waitBriefly() const;
+};
+
+struct ThreadPool::Worker
+{
+  std::condition_variable Wake;
+  ThreadPool::Team* Team = nullptr; ///< null while it is idle
+  Worker* Next = nullptr;           ///< in the team's list
+  bool IsCalled = false;            ///< has not yet begun to work for its team
+  Placement Place = {};
+};
+
+void ThreadPool::Team::doShares()
+{
+  for (int share; (share = this->Next.fetch_add(1, std::memory_order_relaxed)) < this->Shares;)
+  {
+    doShare(share, this->Work);
+  }
+}
+
+void ThreadPool::Team::add(Worker& worker)
+{
+  worker.Team = this;
+  worker.IsCalled = true;
+  worker.Next = std::exchange(this->First, &worker);
+  this->Allowed.keepOff(worker.Place);
+}
+
+void ThreadPool::Team::remove(const Worker& worker)
+{
+  Worker** place = &this->First;
+  while (*place != &worker)
+  {
+    place = &(*place)->Next;
+  }
+  *place = worker.Next;
+}
+
+void ThreadPool::Team::keepOff() const
+{
+  for (Worker* worker = this->First; worker; worker = worker->Next)
+  {
+    this->Allowed.keepOff(worker->Place);
+  }
+}
+
+/// Waits a little for the workers: to sleep and be woken takes longer than most of these waits.
+void ThreadPool::Team::waitBriefly() const
+{
+  const auto end = std::chrono::steady_clock::now() + std::chrono::microseconds(20);
+  while (this->Busy.load(std::memory_order_acquire) != 0 && std::chrono::steady_clock::now() < end)
+  {
+  }
+}
+
+thread_local ThreadPool::Team* ThreadPool::CurrentTeam = nullptr;
 
 ThreadPool& ThreadPool::instance()
 {
@@ -69,72 +226,187 @@ int ThreadPool::number()
   return currentNumber;
 }
 
-/// Returns an idle or a new worker, or null if the system refuses another thread.
-ThreadPool::Worker* ThreadPool::takeWorker()
+void ThreadPool::run(int shares, const SharedWork& work)
 {
-  if (!this->Idle.empty())
+  if (shares <= 1 || isAlreadyParallel())
   {
-    Worker* const worker = this->Idle.back();
-    this->Idle.pop_back();
-    return worker;
+    for (int share = 0; share < shares; ++share)
+    {
+      doShare(share, work);
+    }
+    return;
   }
-  try
+  Team team{ work, shares };
+  Team* const outer = std::exchange(CurrentTeam, &team);
+  this->callWorkers(team, shares - 1);
+  doShare(0, work);
+  team.doShares();
+  this->release(team);
+  CurrentTeam = outer;
+}
+
+void ThreadPool::keepOthersOff()
+{
+  if (CurrentTeam && CurrentTeam->Allowed.follow())
   {
-    auto worker = std::make_unique<Worker>();
-    this->Idle.reserve(this->Started + 1); // so that workers return without an allocation
-    std::thread([this, w = worker.get()] { this->serve(*w); }).detach();
-    ++this->Started;
-    return worker.release();
-  }
-  catch (const std::exception&) // no more threads or memory
-  {
-    return nullptr;
+    const std::lock_guard<std::mutex> lock(instance().Mutex);
+    CurrentTeam->keepOff();
   }
 }
 
+/// Gives the team up to `count` workers: idle ones, then new ones.
+void ThreadPool::callWorkers(Team& team, int count)
+{
+  NewWorkers added;
+  {
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    for (; count > 0 && !this->Idle.empty(); --count)
+    {
+      team.add(*this->Idle.back());
+      this->Idle.back()->Wake.notify_one();
+      this->Idle.pop_back();
+    }
+    added = this->addWorkers(team, count);
+  }
+  if (!added.empty())
+  {
+    this->start(added);
+  }
+}
+
+/// Gives the team up to `count` new workers, which have no threads yet; fewer without memory.
+ThreadPool::NewWorkers ThreadPool::addWorkers(Team& team, int count)
+{
+  NewWorkers added;
+  try
+  {
+    added.reserve(std::size_t(count));
+    // So that workers become idle without an allocation.
+    this->Idle.reserve(this->Started + std::size_t(count));
+    for (int i = 0; i < count; ++i)
+    {
+      added.push_back(new Worker);
+      team.add(*added.back());
+      ++this->Started;
+    }
+  }
+  catch (const std::bad_alloc&)
+  {
+  }
+  return added;
+}
+
+/// Waits for the workers that have begun, and makes all of them idle.
+void ThreadPool::release(Team& team)
+{
+  {
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    for (Worker* worker = team.First; worker; worker = worker->Next)
+    {
+      worker->IsCalled = false;
+    }
+  }
+  team.waitBriefly();
+  std::unique_lock<std::mutex> lock(this->Mutex);
+  team.Finished.wait(lock, [&team] { return team.Busy == 0; });
+  for (Worker* worker = team.First; worker; worker = worker->Next)
+  {
+    worker->Team = nullptr;
+    this->Idle.push_back(worker);
+  }
+}
+
+/// What a worker's thread does.
 void ThreadPool::serve(Worker& worker)
 {
   std::unique_lock<std::mutex> lock(this->Mutex);
+  worker.Place.Thread = currentThread();
+  if (worker.Team)
+  {
+    worker.Team->Allowed.keepOff(worker.Place);
+  }
   for (;;)
   {
-    worker.Wake.wait(lock, [&worker] { return worker.Team != nullptr; });
+    worker.Wake.wait(lock, [&worker] { return worker.IsCalled; });
+    worker.IsCalled = false;
     Team& team = *worker.Team;
+    ++team.Busy;
     lock.unlock();
-    callAs(worker.Number, team.Work);
+    team.doShares();
     lock.lock();
-    worker.Team = nullptr;
-    this->Idle.push_back(&worker);
     if (--team.Busy == 0)
     {
-      team.Done.notify_one();
+      team.Finished.notify_one();
     }
   }
 }
 
-void ThreadPool::run(int threads, const std::function<void(int)>& work)
+/// Removes workers for which there are no threads: all from the given one on.
+void ThreadPool::discard(const NewWorkers& workers, std::size_t first)
 {
-  Team team{ work };
-  std::unique_lock<std::mutex> lock(this->Mutex, std::defer_lock);
-  if (threads > 1 && !isInWork)
+  const std::lock_guard<std::mutex> lock(this->Mutex);
+  for (std::size_t i = first; i < workers.size(); ++i)
   {
-    lock.lock();
-    for (int number = 1; number < threads; ++number)
+    Worker* const worker = workers[i];
+    if (worker->Team)
     {
-      Worker* const worker = this->takeWorker();
-      if (!worker)
-      {
-        break;
-      }
-      worker->Team = &team;
-      worker->Number = number;
-      ++team.Busy;
-      worker->Wake.notify_one();
+      worker->Team->remove(*worker);
     }
-    lock.unlock();
+    else
+    {
+      this->Idle.erase(std::find(this->Idle.begin(), this->Idle.end(), worker));
+    }
+    delete worker;
+    --this->Started;
   }
-  callAs(0, work);
-  lock.lock();
-  team.Done.wait(lock, [&team] { return team.Busy == 0; });
 }
+
+#ifdef _OPENMP
+
+/// Starts the threads of new workers: those of one region that never ends. None of them is the
+/// application's own, so OpenMP has other threads for the application's regions. It places the
+/// threads as its environment variables say.
+void ThreadPool::start(const NewWorkers& workers)
+{
+  const auto serveAll = [this, workers]
+  {
+    const int count = static_cast<int>(workers.size());
+#pragma omp parallel num_threads(count)
+    {
+#pragma omp single nowait
+      this->discard(workers, std::size_t(omp_get_num_threads())); // it may start fewer
+      this->serve(*workers[std::size_t(omp_get_thread_num())]);
+    }
+  };
+  try
+  {
+    std::thread(serveAll).detach();
+  }
+  catch (const std::exception&) // no more threads or memory
+  {
+    this->discard(workers, 0);
+  }
+}
+
+#else
+
+/// Starts the threads of new workers.
+void ThreadPool::start(const NewWorkers& workers)
+{
+  for (std::size_t i = 0; i < workers.size(); ++i)
+  {
+    try
+    {
+      std::thread([this, worker = workers[i]] { this->serve(*worker); }).detach();
+    }
+    catch (const std::exception&) // no more threads or memory
+    {
+      this->discard(workers, i);
+      break;
+    }
+  }
+}
+
+#endif
 
 } // namespace tipp

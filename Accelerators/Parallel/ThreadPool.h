@@ -5,36 +5,62 @@
 #include "vtkTIPPAcceleratorsModule.h"
 
 #include <cstddef>
-#include <functional>
 #include <mutex>
 #include <vector>
 
 namespace tipp
 {
 
-/// Threads for parallel work in builds without OpenMP. They wait between two pieces of work, and
-/// are never ended. Any number of threads may run work at the same time, also in a forked child.
+/// Work in numbered shares: call(object, number) does one of them, and does not throw.
+struct SharedWork
+{
+  const void* Object;
+  void (*Call)(const void* object, int number);
+};
+
+/// Threads for parallel work, made by OpenMP where the build has it. They sleep between two pieces
+/// of work, and are never ended. Any number of threads may run work at the same time, also in a
+/// forked child.
+///
+/// A busy machine must not make several threads slower than one. OpenMP's own parallel regions do:
+/// each waits at its end for every thread, and while it waits it uses the processor that the other
+/// needs. Here nobody has to arrive: the calling thread does all shares that no other has begun,
+/// and then waits, asleep, only for those that have. On Linux the other threads are also kept off
+/// the calling thread's processor: the system often puts them there if the others are busy.
 class VTKTIPPACCELERATORS_EXPORT ThreadPool
 {
 public:
   /// The only one.
   static ThreadPool& instance();
 
-  /// Calls work(0) in this thread and work(1) ... work(threads - 1) in others, and returns when all
-  /// have returned. Makes fewer calls if the system cannot start that many threads, and only
-  /// work(0) within other work. `work` must not throw.
-  void run(int threads, const std::function<void(int)>& work);
+  /// Does each share, 0 to `shares` - 1, once, and returns when all are done. Share 0 is done by
+  /// this thread, the others by up to `shares` - 1 other threads or this one. Within other work,
+  /// this thread does all.
+  void run(int shares, const SharedWork& work);
 
-  /// The argument with which run() called the innermost work in this thread; 0 outside of work.
+  /// If the system has moved this thread to another processor since it called run(), keeps the
+  /// other threads off that processor. Work calls it now and then; in other threads it does
+  /// nothing.
+  static void keepOthersOff();
+
+  /// The number of the innermost share that this thread does; 0 outside of work.
   static int number();
 
 private:
   struct Team;
   struct Worker;
 
+  using NewWorkers = std::vector<Worker*>;
+
   ThreadPool();
-  Worker* takeWorker();
+  void callWorkers(Team& team, int count);
+  NewWorkers addWorkers(Team& team, int count);
+  void start(const NewWorkers& workers);
   void serve(Worker& worker);
+  void discard(const NewWorkers& workers, std::size_t first);
+  void release(Team& team);
+
+  static thread_local Team* CurrentTeam; ///< that of this thread's run()
 
   std::mutex Mutex; ///< of all data here, in workers and in teams
   std::vector<Worker*> Idle;

@@ -2,33 +2,44 @@
 #ifndef tippThreads_h
 #define tippThreads_h
 
+#include "Parallel/ThreadPool.h"
 #include "vtkTIPPAcceleratorsModule.h"
-
-#include <functional>
 
 namespace tipp
 {
 
-/// @name Threads
-/// Those of OpenMP, or of ThreadPool in a build without OpenMP.
-///@{
-
-/// Calls work(0) in this thread and work(1) ... work(threads - 1) in others, and returns when all
-/// have returned. Makes fewer calls if the system cannot start that many threads, and only work(0)
-/// within other such work. `work` must not throw.
-VTKTIPPACCELERATORS_EXPORT void runOnThreads(int threads, const std::function<void(int)>& work);
+/// Calls work(0) ... work(threads - 1), once each, and returns when all have returned. work(0) is
+/// called in this thread, the others in up to `threads` - 1 threads of the ThreadPool or in this
+/// one; within other work all are called in this one. No call may wait for another to begin. `work`
+/// must not throw.
+template <typename Work>
+void runOnThreads(int threads, const Work& work)
+{
+  ThreadPool::instance().run(threads,
+    { &work, [](const void* object, int number) { (*static_cast<const Work*>(object))(number); } });
+}
 
 /// The argument with which runOnThreads() called the innermost work in this thread; 0 outside.
-VTKTIPPACCELERATORS_EXPORT int threadNumber();
+inline int threadNumber()
+{
+  return ThreadPool::number();
+}
 
-/// The number of processors that this process may use.
-VTKTIPPACCELERATORS_EXPORT int processorCount();
+/// The number of threads to use if none is requested, and where it comes from: "OMP_NUM_THREADS",
+/// "OpenMP's functions" (the application called omp_set_num_threads()), or the reason of
+/// usableProcessors().
+struct DefaultThreads
+{
+  int Count;
+  const char* From;
+};
+VTKTIPPACCELERATORS_EXPORT DefaultThreads defaultThreads();
 
-/// The number of threads to use if none is requested: OMP_NUM_THREADS, else one per processor,
-/// unless this thread has set another.
+/// The same number, or what the calling thread has set instead.
 VTKTIPPACCELERATORS_EXPORT int usualThreads();
-VTKTIPPACCELERATORS_EXPORT void setUsualThreads(int threads);
-///@}
+
+/// Sets the number for the calling thread, 0: none. Returns what was set before.
+VTKTIPPACCELERATORS_EXPORT int setUsualThreads(int threads);
 
 } // namespace tipp
 

@@ -38,7 +38,7 @@ struct Membership
 struct ClassifyOptions
 {
   DeviceChoice Device;
-  /// OpenMP threads; 0 for OpenMP's default.
+  /// OpenMP threads; 0 for defaultThreads().
   int Threads = 0;
   /// The limit of device memory in bytes; 0 for half of the device's memory. Larger inputs are
   /// processed in batches.

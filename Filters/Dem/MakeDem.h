@@ -28,7 +28,7 @@ struct DemRequest
   RasterRequest Raster; ///< the pixel grid
   std::vector<std::string> Bands = { "elevation" };
   double MaximumEdge = 0; ///< longest edge of triangles, in the points' unit of length; 0: no limit
-  int Threads = 0;        ///< 0: OpenMP's default
+  int Threads = 0;        ///< 0: defaultThreads()
   DuplicateRule Duplicates = DuplicateRule::First; ///< which values coincident points get
   std::optional<TableConstraints> Constraints;     ///< see constrain()
   /// The box of the points that are there, if they are a part of all of them: see DemRegion. Only

@@ -38,7 +38,7 @@ std::vector<const double*> pointersTo(const BandValues& values);
 
 /// Writes all tiles; voids of `bands` are filled, see fillVoids(). Returns the number of pixels
 /// whose first band has a value from a triangle, or -1 if `progress` stopped it. `threads` = 0 is
-/// OpenMP's default. Throws IOError.
+/// defaultThreads(). Throws IOError.
 VTKTIPPFILTERS_EXPORT std::int64_t writeTiles(RasterWriter& writer, const RasterGrid& grid,
   const TileSource& tiles, const std::function<bool(double)>& progress, int threads,
   const DemBands& bands = {});

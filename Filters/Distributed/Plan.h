@@ -71,7 +71,7 @@ struct DistributedOptions
   GroupSizes Groups = GroupSizes::Proportional;
   RankSchedule Order = RankSchedule::Dynamic;
   int InitialPointsPerPartition = 0; ///< 0: chosen automatically
-  int Threads = 0;                   ///< threads of each rank; 0: OpenMP's default
+  int Threads = 0;                   ///< threads of each rank; 0: defaultThreads()
   /// Called now and then with this rank's finished fraction (0 to 1); returning false ends the run
   /// on all ranks.
   std::function<bool(double)> Progress;

@@ -24,7 +24,7 @@ using OpenPoints = std::function<std::unique_ptr<PointStream>()>;
 struct OutOfCoreRunOptions
 {
   std::uint64_t MemoryLimit = std::uint64_t(2) << 30; ///< in bytes
-  int Threads = 0;                                    ///< 0: OpenMP's default
+  int Threads = 0;                                    ///< 0: defaultThreads()
   std::int64_t PiecePoints = 0; ///< approximate points per piece; 0: as memory allows
   /// Adds the point array RepresentativePointId.
   bool MapDuplicates = false;

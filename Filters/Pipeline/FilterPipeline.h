@@ -85,7 +85,7 @@ int runReported(vtkAlgorithm* filter, vtkMultiProcessController* controller,
 /// Does the same for a filter that triangulates the points of `input`: calls onRanks() if the
 /// controller has several ranks, else alone(). The message begins with `doing` and the number of
 /// points; if memory runs out, it gives advice. `threads` is the number of OpenMP threads within
-/// the calls; 0: OpenMP's default.
+/// the calls; 0: defaultThreads().
 int triangulateReported(vtkAlgorithm* filter, vtkMultiProcessController* controller, int threads,
   const std::string& doing, vtkPointSet* input, vtkInformationVector* outputs,
   const std::function<void()>& alone, const std::function<void()>& onRanks);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Statistics/RunStatistics.h"
 
+#include "Parallel/Threads.h"
+
 #include <cstdio>
 #include <numeric>
 #include <utility>
@@ -98,6 +100,16 @@ RunStatistics countsOf(std::int64_t points, const char* key, const char* array, 
   return run;
 }
 
+/// Adds the number of threads, and that of a run for which none is requested. `key` is the name of
+/// the first.
+void addThreads(RunStatistics& run, const char* key, int threads)
+{
+  const DefaultThreads usual = defaultThreads();
+  run.add(key, "Threads", threads);
+  run.add("default_threads", "DefaultThreads", usual.Count);
+  run.add("default_threads_from", "DefaultThreadsFrom", std::string(usual.From));
+}
+
 /// Returns the statistics of a run in memory.
 template <typename Mesh>
 RunStatistics inMemory(
@@ -106,7 +118,7 @@ RunStatistics inMemory(
   const TriangulationStatistics& statistics = mesh.Statistics;
   RunStatistics run = countsOf(points, key, array, cells, std::int64_t(mesh.Duplicates.size()),
     std::int64_t(mesh.Rejected.size()));
-  run.add("threads", "Threads", statistics.Threads);
+  addThreads(run, "threads", statistics.Threads);
   run.add("partitions", "Partitions", statistics.Partitions);
   run.add("initial_points", "InitialPoints", statistics.InitialPoints);
   run.add("worker_vertices", "WorkerVertices", statistics.WorkerVertices);
@@ -121,7 +133,7 @@ RunStatistics onRanks(const Mesh& mine, const char* key, const char* array, std:
   RunStatistics run =
     countsOf(mine.AllPoints, key, array, cells, mine.AllDuplicates, mine.AllRejected);
   run.add("seconds", "", mine.Statistics.Seconds);
-  run.add("threads_per_rank", "Threads", mine.Statistics.ThreadsPerRank);
+  addThreads(run, "threads_per_rank", mine.Statistics.ThreadsPerRank);
   run.add("partitions", "Partitions", mine.Statistics.Partitions);
   return run;
 }
@@ -134,7 +146,7 @@ void addOutOfCore(const OutOfCoreRunStatistics& statistics, RunStatistics& run)
   run.add("spilled_bytes", "SpilledBytes", std::int64_t(statistics.SpilledBytes));
   run.add("mesh_bytes", "MeshBytes", std::int64_t(statistics.MeshBytes));
   run.add("resumed", "Resumed", statistics.Resumed);
-  run.add("threads", "Threads", statistics.Threads);
+  addThreads(run, "threads", statistics.Threads);
   run.Lists = { phasesOf(statistics.Phases, true, "Phase", "Seconds") };
 }
 

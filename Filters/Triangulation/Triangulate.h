@@ -27,7 +27,7 @@ struct TriangulationOptions
   int Rows = 0;
   int InitialPointsPerPartition = 0; ///< 0: chosen automatically
   Schedule Order = Schedule::Dynamic;
-  int Threads = 0; ///< 0: OpenMP's choice
+  int Threads = 0; ///< 0: defaultThreads()
   /// Triangles with a longer edge are removed from the result, in the points' unit of length; 0:
   /// none.
   double MaximumEdge = 0;

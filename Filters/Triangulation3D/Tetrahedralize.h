@@ -19,7 +19,7 @@ namespace tipp
 struct TetrahedralizationOptions
 {
   int Partitions = 0; ///< 0: chosen by the number of points and threads
-  int Threads = 0;    ///< 0: OpenMP's default
+  int Threads = 0;    ///< 0: defaultThreads()
   /// Called regularly with the finished fraction (0 to 1), by one thread at a time. Returns false
   /// to abort the run.
   std::function<bool(double)> Progress;

@@ -22,7 +22,7 @@ struct LasOptions
   /// of each axis if not, and for other inputs the decimals that the coordinates have. Coordinates
   /// are rounded to multiples of scales that are given.
   std::vector<double> Scale = {};
-  int Threads = 0; ///< 0: OpenMP's default
+  int Threads = 0; ///< 0: defaultThreads()
   /// The state of the output's path when the run began: see PendingFile.
   std::optional<PathState> Before = {};
 };

@@ -81,7 +81,7 @@ private:
   std::size_t RecordBytes = 0;
 };
 
-/// The base of all loaders: the open files, and the number of threads (0: OpenMP's default).
+/// The base of all loaders: the open files, and the number of threads (0: defaultThreads()).
 class FileLoader : public VertexLoader
 {
 protected:

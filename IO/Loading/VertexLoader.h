@@ -45,7 +45,7 @@ struct LoaderOptions
   std::int64_t M = 0;
   /// Bytes for the vertices in memory; 0: 512 MiB.
   std::uint64_t MemoryLimit = 0;
-  int Threads = 0; ///< 0: OpenMP's default.
+  int Threads = 0; ///< 0: defaultThreads().
 };
 
 /// Loads tuples of arrays in files by their index in the array, in any order: the "load" phase of a

@@ -105,7 +105,7 @@ struct TreeOptions
   std::int64_t Threshold = 100000;
   /// Number of cells read at once, from 1 to 2^30.
   std::int64_t ChunkCells = std::int64_t(1) << 20;
-  int Threads = 0; ///< 0: OpenMP's default
+  int Threads = 0; ///< 0: defaultThreads()
 };
 
 /// Builds the quadtree or octree over the domain in which every node with more than Threshold cells

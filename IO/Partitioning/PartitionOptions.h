@@ -32,7 +32,7 @@ struct PartitionOptions
   std::int64_t ChunkCells = 0;  ///< 0: as many as fit in memory
   std::int64_t ChunkPoints = 0; ///< 0: as many as fit in memory
   DeviceChoice Device;          ///< the device that classifies cells
-  int Threads = 0;              ///< 0: OpenMP's default
+  int Threads = 0;              ///< 0: defaultThreads()
   /// Called on every rank's calling thread, every few thousand points or cells, with the fraction
   /// done; returning false aborts the run on all ranks.
   std::function<bool(double)> Progress;

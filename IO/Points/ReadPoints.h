@@ -224,7 +224,7 @@ struct PointOptions
   /// no.
   int Wrap = 0;
   Thinning Thin = {}; ///< applied to the points of all files together
-  int Threads = 1;    ///< threads that decode LAS and LAZ files; 0: OpenMP's default
+  int Threads = 1;    ///< threads that decode LAS and LAZ files; 0: defaultThreads()
   /// Whether points that are generated have a column z.
   bool InSpace = false;
   /// Names of the columns besides x and y to read, if the file has them; nullopt: all.

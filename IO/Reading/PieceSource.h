@@ -26,7 +26,7 @@ struct SourceOptions
   TilingChoice Tiling; ///< for a flat mesh; a partitioned one has its own
   std::uint64_t MemoryLimit = std::uint64_t(2)
     << 30;         ///< in bytes, not counting the pieces themselves
-  int Threads = 0; ///< 0: OpenMP's default
+  int Threads = 0; ///< 0: defaultThreads()
 };
 
 /// A source of pieces: a partitioned mesh on disk, or a flat mesh that is partitioned as it is

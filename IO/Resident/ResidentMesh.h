@@ -30,7 +30,7 @@ struct ResidentOptions
   /// them. The answers count too, as long as they leave space for one piece. If a single piece
   /// exceeds the limit, a query throws IOError.
   std::uint64_t MemoryLimit = std::uint64_t(1) << 30;
-  int Threads = 0; ///< 0: OpenMP's default
+  int Threads = 0; ///< 0: defaultThreads()
   int Step = 0;    ///< time step of a stored mesh's arrays that vary in time
 };
 

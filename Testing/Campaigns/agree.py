@@ -15,7 +15,7 @@ import sys
 
 import campaign
 
-ENVIRONMENT = dict(os.environ, OMP_WAIT_POLICY="passive", OMP_NUM_THREADS="2", OMPI_ALLOW_RUN_AS_ROOT="1",
+ENVIRONMENT = dict(os.environ, OMP_NUM_THREADS="2", OMPI_ALLOW_RUN_AS_ROOT="1",
                    OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", OMPI_MCA_mpi_yield_when_idle="1")
 
 

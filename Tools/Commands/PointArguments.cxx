@@ -271,8 +271,8 @@ void addStepOption(CLI::App& command, int& step)
 
 void addThreadsOption(CLI::App& command, int& threads)
 {
-  addChecked(
-    command, "--threads", threads, CLI::Range(0, 4096), "Number of threads; 0: OpenMP's default");
+  addChecked(command, "--threads", threads, CLI::Range(0, 4096),
+    "Number of threads; 0: OMP_NUM_THREADS, or one for each processor that this process may use");
 }
 
 void addOutput(CLI::App& command, std::string& output, const std::string& help, unsigned uses)

@@ -29,6 +29,19 @@ TEST(Threads, NumberIsTheRequestedOneWithinALimit)
   EXPECT_LT(threadCount(std::numeric_limits<int>::max()), 100000);
 }
 
+TEST(Threads, UsualNumberIsWhatTheThreadHasSet)
+{
+  const int before = usualThreads();
+  EXPECT_EQ(0, setUsualThreads(5));
+  EXPECT_EQ(5, usualThreads());
+  {
+    const ThreadLimit limit(3);
+    EXPECT_EQ(3, usualThreads());
+  }
+  EXPECT_EQ(5, setUsualThreads(0));
+  EXPECT_EQ(before, usualThreads());
+}
+
 TEST(Threads, AForkedChildDoesNotHang)
 {
   ASSERT_EQ(1000, sumOnThreads());

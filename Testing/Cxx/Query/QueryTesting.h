@@ -5,6 +5,7 @@
 #include "SourceMesh.h"
 #include "TemporaryFolder.h"
 
+#include "Query/ZoneShape.h"
 #include "Resident/ResidentMesh.h"
 
 #include <cstdint>
@@ -40,6 +41,12 @@ Point3 pointOf(const SourceMesh& source, std::int64_t id);
 
 /// Expects equal answers, bit by bit, except for keys.
 void expectEqual(const MeshAnswer& expected, const MeshAnswer& answer);
+
+/// A ring around a box.
+inline ZoneRing rectangle(double xmin, double xmax, double ymin, double ymax, bool isHole = false)
+{
+  return { { { xmin, ymin }, { xmax, ymin }, { xmax, ymax }, { xmin, ymax } }, isHole };
+}
 
 } // namespace test
 } // namespace tipp

@@ -11,16 +11,6 @@
 using namespace tipp;
 using namespace tipp::test;
 
-namespace
-{
-
-ZoneRing rectangle(double xmin, double xmax, double ymin, double ymax, bool isHole = false)
-{
-  return { { { xmin, ymin }, { xmax, ymin }, { xmax, ymax }, { xmin, ymax } }, isHole };
-}
-
-} // namespace
-
 TEST(Regions, ContainPointsOnTheirBorder)
 {
   const ZoneShape shape(

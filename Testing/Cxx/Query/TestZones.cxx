@@ -188,11 +188,6 @@ ZoneRing star(double x, double y, double radius, int corners, unsigned seed)
   return ring;
 }
 
-ZoneRing rectangle(double xmin, double xmax, double ymin, double ymax, bool isHole = false)
-{
-  return { { { xmin, ymin }, { xmax, ymin }, { xmax, ymax }, { xmin, ymax } }, isHole };
-}
-
 /// Random polygons, and polygons along mesh edges, through mesh points, inside one triangle, and
 /// with holes.
 std::vector<Zone> manyZones()
