@@ -2,6 +2,7 @@
 #ifndef tippPointsInBox_h
 #define tippPointsInBox_h
 
+#include "Arrays/Buffer.h"
 #include "Locate/MortonOrder.h"
 #include "Parallel/CountingSort.h"
 #include "Parallel/ParallelFor.h"
@@ -12,6 +13,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace tipp
@@ -288,30 +290,10 @@ public:
     : Bounds(boundsOf<D>(count, threads, [&at](std::int64_t i) { return Box<D>::of(at(i)); }))
   {
     this->chooseSides(count);
-    std::size_t buckets = 1;
-    for (const std::int64_t side : this->Sides)
-    {
-      buckets *= std::size_t(side);
-    }
-    this->Entries = { buckets, threads,
-      [&](const auto& visit)
-      {
-        forChunks(count, 1 << 14, threads, {},
-          [&](std::int64_t begin, std::int64_t end, int)
-          {
-            for (std::int64_t i = begin; i < end; ++i)
-            {
-              const Point<D> point = at(i);
-              if (isFinite(point))
-              {
-                visit(this->bucketOf(point), NumberedPoint{ point, std::int32_t(i) });
-              }
-            }
-          });
-      } };
+    this->sort(threads, this->sortIntoBands(count, threads, at), at);
   }
 
-  std::size_t size() const { return this->Entries.size(); }
+  std::size_t size() const { return this->Starts.back(); }
   const Point<D>& at(std::size_t entry) const { return this->Entries[entry].Position; }
   std::int64_t number(std::size_t entry) const { return this->Entries[entry].Number; }
 
@@ -335,8 +317,7 @@ public:
     {
       const std::size_t first = this->indexOf(at);
       const std::size_t last = first + std::size_t(high[0] - low[0]);
-      const std::uint32_t end = this->Entries.start(last + 1);
-      for (std::uint32_t entry = this->Entries.start(first); entry < end; ++entry)
+      for (std::uint32_t entry = this->Starts[first]; entry < this->Starts[last + 1]; ++entry)
       {
         visit(entry, this->Entries[entry].Position);
       }
@@ -356,6 +337,92 @@ private:
     std::int32_t Number;
   };
 
+  /// The numbers of all finite points, by bands of consecutive buckets.
+  struct Bands
+  {
+    std::vector<std::int32_t> Numbers;
+    std::vector<std::uint32_t> Starts; ///< by band
+  };
+
+  std::size_t bandOf(std::size_t bucket) const { return bucket >> this->BandBits; }
+
+  /// The first of two passes of a sort without atomic counters, which would take several times as
+  /// long. A share of the points has its own counters.
+  template <typename At>
+  Bands sortIntoBands(std::int64_t count, int threads, const At& at) const
+  {
+    const std::int64_t shares = std::int64_t(4) * threadCount(threads);
+    const std::size_t bands = this->bandOf(this->buckets() - 1) + 1;
+    std::vector<std::vector<std::uint32_t>> next;
+    next.resize(std::size_t(shares), std::vector<std::uint32_t>(bands));
+    const auto forFinite = [&](const auto& visit)
+    {
+      parallelFor(shares, threads,
+        [&](std::int64_t share)
+        {
+          for (std::int64_t i = count * share / shares; i < count * (share + 1) / shares; ++i)
+          {
+            if (const Point<D> point = at(i); isFinite(point))
+            {
+              visit(next[std::size_t(share)][this->bandOf(this->bucketOf(point))], i);
+            }
+          }
+        });
+    };
+    forFinite([](std::uint32_t& counter, std::int64_t) { ++counter; });
+    Bands sorted;
+    sorted.Starts = countsToIndices(bands, next);
+    sorted.Numbers.resize(sorted.Starts.back());
+    forFinite([&sorted](std::uint32_t& position, std::int64_t i)
+      { sorted.Numbers[position++] = std::int32_t(i); });
+    return sorted;
+  }
+
+  /// Sorts each band by bucket; it has few counters.
+  template <typename At>
+  void sort(int threads, const Bands& bands, const At& at)
+  {
+    this->Starts.resize(this->buckets() + 1);
+    this->Entries = Buffer<NumberedPoint>(bands.Numbers.size());
+    parallelFor(std::int64_t(bands.Starts.size() - 1), threads,
+      [&](std::int64_t band)
+      {
+        const std::uint32_t begin = bands.Starts[std::size_t(band)];
+        const std::uint32_t end = bands.Starts[std::size_t(band) + 1];
+        // That of the next bucket counts, is the bucket's start, and at last its end.
+        const auto counterOf = [this](const Point<D>& point) -> std::uint32_t&
+        { return this->Starts[this->bucketOf(point) + 1]; };
+        for (std::uint32_t i = begin; i < end; ++i)
+        {
+          ++counterOf(at(bands.Numbers[i]));
+        }
+        const std::size_t first = std::size_t(band) << this->BandBits;
+        const std::size_t last =
+          std::min(first + (std::size_t(1) << this->BandBits), this->buckets());
+        std::uint32_t sum = begin;
+        for (std::size_t bucket = first; bucket < last; ++bucket)
+        {
+          sum += std::exchange(this->Starts[bucket + 1], sum);
+        }
+        for (std::uint32_t i = begin; i < end; ++i)
+        {
+          const std::int32_t number = bands.Numbers[i];
+          const Point<D> point = at(number);
+          this->Entries[counterOf(point)++] = { point, number };
+        }
+      });
+  }
+
+  std::size_t buckets() const
+  {
+    std::size_t buckets = 1;
+    for (const std::int64_t side : this->Sides)
+    {
+      buckets *= std::size_t(side);
+    }
+    return buckets;
+  }
+
   void chooseSides(std::int64_t count)
   {
     constexpr std::int64_t most = D == 2 ? 1 << 14 : 1 << 9;
@@ -372,6 +439,11 @@ private:
       const double wanted = extents[axis] / width; // NaN or infinite if the points are flat
       this->Sides[axis] = wanted >= 1 ? std::int64_t(std::min(wanted, double(most))) : 1;
       this->Scale[axis] = double(this->Sides[axis]) / extents[axis];
+    }
+    constexpr std::size_t mostBands = 256;
+    while (this->bandOf(this->buckets() - 1) >= mostBands)
+    {
+      ++this->BandBits;
     }
   }
 
@@ -403,7 +475,9 @@ private:
   Box<D> Bounds;
   std::array<std::int64_t, D> Sides{};
   std::array<double, D> Scale{};
-  GroupedItems<NumberedPoint, std::uint32_t> Entries; ///< by box
+  int BandBits = 0;                  ///< a band has 2^BandBits buckets
+  std::vector<std::uint32_t> Starts; ///< by bucket, and the number of points
+  Buffer<NumberedPoint> Entries;     ///< by bucket
 };
 
 } // namespace tipp
