@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <new>
 #include <stdexcept>
+#include <type_traits>
 #include <variant>
 
 namespace tipp::python
@@ -37,7 +38,13 @@ nb::dict statisticsDict(const RunStatistics& statistics)
   nb::dict result;
   for (const Figures& total : statistics.Totals)
   {
-    result[total.Key.c_str()] = std::get<std::vector<std::int64_t>>(total.Values).front();
+    std::visit(
+      [&](const auto& values)
+      {
+        using Value = typename std::decay_t<decltype(values)>::value_type;
+        result[total.Key.c_str()] = Value(values.front());
+      },
+      total.Values);
   }
   for (const FigureList& list : statistics.Lists)
   {

@@ -16,6 +16,7 @@ from ._vtkmodules import (
     vtkDoubleArray,
     vtkIdTypeArray,
     vtkOutputWindow,
+    vtkStringArray,
 )
 
 
@@ -235,9 +236,10 @@ def _add_list(cls: type, name: str) -> None:
         setattr(cls, method, function)
 
 
-def add_total(name: str, value: float, totals: Any) -> None:
+def add_total(name: str, value: float | str, totals: Any) -> None:
     """Adds an array of one value to the field data."""
-    array = vtkIdTypeArray() if isinstance(value, int) else vtkDoubleArray()
+    kind = vtkStringArray if isinstance(value, str) else vtkIdTypeArray if isinstance(value, int) else vtkDoubleArray
+    array = kind()
     array.SetName(name)
     array.InsertNextValue(value)
     totals.AddArray(array)

@@ -173,6 +173,9 @@ class MeshOptions(unittest.TestCase):
         expected = {"points": 404, "triangles": len(mesh.cells), "duplicates": 3, "rejected": 1}
         self.assertEqual(expected, {name: statistics[name] for name in expected})
         self.assertGreater(statistics["partitions"], 0)
+        self.assertGreater(statistics["default_threads"], 0)
+        self.assertIn(statistics["default_threads_from"],
+                      ("processors", "affinity", "control group", "ranks on this node", "OMP_NUM_THREADS"))
         self.assertTrue(all(seconds >= 0 for seconds in statistics["seconds"].values()))
 
     def test_statistics_count_constraints(self):

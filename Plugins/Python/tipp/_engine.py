@@ -36,7 +36,7 @@ _FIGURES = ("points", "triangles", "duplicates", "rejected", "pieces", "spilled_
             "triangle_sum")
 _CONSTRAINT_FIGURES = ("constraints", "constraint_edges", "crossing_points", "crossing_rounds")
 _STATISTICS = ("points", "triangles", "tetrahedra", "duplicates", "rejected", "partitions", "initial_points",
-               "worker_vertices", "threads", *_CONSTRAINT_FIGURES)
+               "worker_vertices", "threads", "default_threads", "default_threads_from", *_CONSTRAINT_FIGURES)
 
 
 def source_of(data: vtkPointSet, options: dict[str, Any]) -> tuple[vtkPolyData | None, bool]:

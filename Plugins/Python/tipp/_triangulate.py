@@ -158,7 +158,8 @@ def delaunay_2d(
         the opposite edge, -1 at the border.
     return_statistics
         Whether to return (mesh, statistics): a dictionary of counts (points, triangles, duplicates, rejected,
-        partitions, threads, constraints, crossing_points, ...) and the seconds of each phase.
+        partitions, threads, constraints, crossing_points, ...), the seconds of each phase, and where the default number
+        of threads comes from (default_threads_from).
     return_type
         "tipp", "vtk" or "pyvista": what the result is. None: tipp's for arrays, VTK's for a data set of VTK, and PyVista's
         for one of PyVista, whatever is installed.
