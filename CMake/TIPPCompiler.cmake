@@ -78,7 +78,7 @@ function (tipp_warnings target)
   endif ()
 endfunction ()
 
-# Compiles a target with less optimisation, in half the time. For programs whose long work is done by the libraries.
+# Compiles a program whose long work is done by the libraries with less optimisation, in half the time.
 function (tipp_compile_quickly target)
   if (TIPP_SANITIZE)
     target_compile_options(${target} PRIVATE -O0)
@@ -86,4 +86,9 @@ function (tipp_compile_quickly target)
     # The wheel is to be small.
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:$<IF:$<BOOL:${TIPP_BUILD_WHEEL}>,-Os,-O1>>)
   endif ()
+endfunction ()
+
+# Compiles a program of tests: without optimisation in a third less time still.
+function (tipp_compile_test target)
+  target_compile_options(${target} PRIVATE $<$<NOT:$<CONFIG:Debug>>:-O0>)
 endfunction ()

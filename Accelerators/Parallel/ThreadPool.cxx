@@ -6,6 +6,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <exception>
+#include <limits>
 #include <memory>
 #include <thread>
 #include <utility>
@@ -52,6 +53,16 @@ bool isAlreadyParallel()
 #endif
 }
 
+/// OMP_THREAD_LIMIT; without it and without OpenMP, any number.
+int mostThreads()
+{
+#ifdef _OPENMP
+  return omp_get_thread_limit();
+#else
+  return std::numeric_limits<int>::max();
+#endif
+}
+
 #ifdef __linux__
 
 /// Where the system may run a thread of the pool.
@@ -81,18 +92,19 @@ public:
   bool follow()
   {
     const int now = this->AreSeveral ? sched_getcpu() : -1;
-    return now >= 0 && std::exchange(this->Callers, now) != now;
+    return now >= 0 && this->Callers.exchange(now, std::memory_order_relaxed) != now;
   }
 
   /// Keeps another thread off the calling thread's processor.
   void keepOff(Placement& other) const
   {
-    if (this->Callers < 0 || other.Thread == 0)
+    const int callers = this->Callers.load(std::memory_order_relaxed);
+    if (callers < 0 || other.Thread == 0)
     {
       return;
     }
     cpu_set_t others = this->Allowed;
-    CPU_CLR(this->Callers, &others);
+    CPU_CLR(callers, &others);
     if (!CPU_EQUAL(&others, &other.Set))
     {
       other.Set = others;
@@ -103,7 +115,7 @@ public:
 private:
   cpu_set_t Allowed = {};
   bool AreSeveral;
-  int Callers = -1; ///< the calling thread's processor
+  std::atomic<int> Callers{ -1 }; ///< the calling thread's processor
 };
 
 #else
@@ -238,7 +250,7 @@ void ThreadPool::run(int shares, const SharedWork& work)
   }
   Team team{ work, shares };
   Team* const outer = std::exchange(CurrentTeam, &team);
-  this->callWorkers(team, shares - 1);
+  this->callWorkers(team, std::min(shares, mostThreads()) - 1);
   doShare(0, work);
   team.doShares();
   this->release(team);
@@ -371,10 +383,11 @@ void ThreadPool::start(const NewWorkers& workers)
   const auto serveAll = [this, workers]
   {
     const int count = static_cast<int>(workers.size());
+    omp_set_dynamic(0); // else OpenMP may start fewer, by the machine's load
 #pragma omp parallel num_threads(count)
     {
 #pragma omp single nowait
-      this->discard(workers, std::size_t(omp_get_num_threads())); // it may start fewer
+      this->discard(workers, std::size_t(omp_get_num_threads())); // it may still start fewer
       this->serve(*workers[std::size_t(omp_get_thread_num())]);
     }
   };
