@@ -88,7 +88,3 @@ function (tipp_compile_quickly target)
   endif ()
 endfunction ()
 
-# Compiles a program of tests: without optimisation in a third less time still.
-function (tipp_compile_test target)
-  target_compile_options(${target} PRIVATE $<$<NOT:$<CONFIG:Debug>>:-O0>)
-endfunction ()

@@ -4,8 +4,8 @@
 
 #include "Arrays/Buffer.h"
 #include "Locate/MortonOrder.h"
-#include "Parallel/CountingSort.h"
 #include "Parallel/ParallelFor.h"
+#include "Parallel/Sort.h"
 
 #include <algorithm>
 #include <array>
@@ -13,7 +13,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 namespace tipp
@@ -290,7 +289,7 @@ public:
     : Bounds(boundsOf<D>(count, threads, [&at](std::int64_t i) { return Box<D>::of(at(i)); }))
   {
     this->chooseSides(count);
-    this->sort(threads, this->sortIntoBands(count, threads, at), at);
+    this->sort(count, threads, at);
   }
 
   std::size_t size() const { return this->Starts.back(); }
@@ -337,80 +336,46 @@ private:
     std::int32_t Number;
   };
 
-  /// The numbers of all finite points, by bands of consecutive buckets.
-  struct Bands
-  {
-    std::vector<std::int32_t> Numbers;
-    std::vector<std::uint32_t> Starts; ///< by band
-  };
-
-  std::size_t bandOf(std::size_t bucket) const { return bucket >> this->BandBits; }
-
-  /// The first of two passes of a sort without atomic counters, which would take several times as
-  /// long. A share of the points has its own counters.
+  /// Sorts words of a point's bucket and number. The words of points that are not finite end up
+  /// last, and are dropped.
   template <typename At>
-  Bands sortIntoBands(std::int64_t count, int threads, const At& at) const
+  void sort(std::int64_t count, int threads, const At& at)
   {
-    const std::int64_t shares = std::int64_t(4) * threadCount(threads);
-    const std::size_t bands = this->bandOf(this->buckets() - 1) + 1;
-    std::vector<std::vector<std::uint32_t>> next;
-    next.resize(std::size_t(shares), std::vector<std::uint32_t>(bands));
-    const auto forFinite = [&](const auto& visit)
-    {
-      parallelFor(shares, threads,
-        [&](std::int64_t share)
-        {
-          for (std::int64_t i = count * share / shares; i < count * (share + 1) / shares; ++i)
-          {
-            if (const Point<D> point = at(i); isFinite(point))
-            {
-              visit(next[std::size_t(share)][this->bandOf(this->bucketOf(point))], i);
-            }
-          }
-        });
-    };
-    forFinite([](std::uint32_t& counter, std::int64_t) { ++counter; });
-    Bands sorted;
-    sorted.Starts = countsToIndices(bands, next);
-    sorted.Numbers.resize(sorted.Starts.back());
-    forFinite([&sorted](std::uint32_t& position, std::int64_t i)
-      { sorted.Numbers[position++] = std::int32_t(i); });
-    return sorted;
-  }
-
-  /// Sorts each band by bucket; it has few counters.
-  template <typename At>
-  void sort(int threads, const Bands& bands, const At& at)
-  {
-    this->Starts.resize(this->buckets() + 1);
-    this->Entries = Buffer<NumberedPoint>(bands.Numbers.size());
-    parallelFor(std::int64_t(bands.Starts.size() - 1), threads,
-      [&](std::int64_t band)
+    const std::uint64_t none = this->buckets();
+    const unsigned shift = unsigned(__builtin_clzll(none)); // few digits to sort by
+    std::vector<std::uint64_t> words(static_cast<std::size_t>(count));
+    forIndices(
+      count,
+      [&](std::int64_t i)
       {
-        const std::uint32_t begin = bands.Starts[std::size_t(band)];
-        const std::uint32_t end = bands.Starts[std::size_t(band) + 1];
-        // That of the next bucket counts, is the bucket's start, and at last its end.
-        const auto counterOf = [this](const Point<D>& point) -> std::uint32_t&
-        { return this->Starts[this->bucketOf(point) + 1]; };
-        for (std::uint32_t i = begin; i < end; ++i)
+        const Point<D> point = at(i);
+        const std::uint64_t bucket = isFinite(point) ? this->bucketOf(point) : none;
+        words[std::size_t(i)] = bucket << shift | std::uint64_t(i);
+      },
+      threads);
+    sortByUpperHalf(words, threadCount(threads), shift);
+    words.erase(std::lower_bound(words.begin(), words.end(), none << shift), words.end());
+    const auto bucketAt = [&](std::int64_t entry)
+    { return entry < std::int64_t(words.size()) ? words[std::size_t(entry)] >> shift : none; };
+    this->Entries = Buffer<NumberedPoint>(words.size());
+    this->Starts.resize(std::size_t(none) + 1);
+    forIndices(
+      std::int64_t(words.size()) + 1,
+      [&](std::int64_t entry)
+      {
+        // The buckets after the one before, which may be empty, begin here.
+        for (std::uint64_t b = entry == 0 ? 0 : bucketAt(entry - 1) + 1; b <= bucketAt(entry); ++b)
         {
-          ++counterOf(at(bands.Numbers[i]));
+          this->Starts[std::size_t(b)] = std::uint32_t(entry);
         }
-        const std::size_t first = std::size_t(band) << this->BandBits;
-        const std::size_t last =
-          std::min(first + (std::size_t(1) << this->BandBits), this->buckets());
-        std::uint32_t sum = begin;
-        for (std::size_t bucket = first; bucket < last; ++bucket)
+        if (entry < std::int64_t(words.size()))
         {
-          sum += std::exchange(this->Starts[bucket + 1], sum);
+          const auto number =
+            std::int64_t(words[std::size_t(entry)] & ((std::uint64_t(1) << shift) - 1));
+          this->Entries.data()[entry] = { at(number), std::int32_t(number) };
         }
-        for (std::uint32_t i = begin; i < end; ++i)
-        {
-          const std::int32_t number = bands.Numbers[i];
-          const Point<D> point = at(number);
-          this->Entries[counterOf(point)++] = { point, number };
-        }
-      });
+      },
+      threads);
   }
 
   std::size_t buckets() const
@@ -439,11 +404,6 @@ private:
       const double wanted = extents[axis] / width; // NaN or infinite if the points are flat
       this->Sides[axis] = wanted >= 1 ? std::int64_t(std::min(wanted, double(most))) : 1;
       this->Scale[axis] = double(this->Sides[axis]) / extents[axis];
-    }
-    constexpr std::size_t mostBands = 256;
-    while (this->bandOf(this->buckets() - 1) >= mostBands)
-    {
-      ++this->BandBits;
     }
   }
 
@@ -475,7 +435,6 @@ private:
   Box<D> Bounds;
   std::array<std::int64_t, D> Sides{};
   std::array<double, D> Scale{};
-  int BandBits = 0;                  ///< a band has 2^BandBits buckets
   std::vector<std::uint32_t> Starts; ///< by bucket, and the number of points
   Buffer<NumberedPoint> Entries;     ///< by bucket
 };

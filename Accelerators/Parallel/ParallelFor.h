@@ -4,7 +4,6 @@
 
 #include "Parallel/Poll.h"
 #include "Parallel/Threads.h"
-#include "Parallel/UsableProcessors.h"
 
 #include <algorithm>
 #include <atomic>
@@ -58,7 +57,7 @@ bool forChunks(
       {
         if (thread == 0)
         {
-          ThreadPool::keepOthersOff();
+          ThreadPool::updateAffinity();
           if (report && !report(double(begin) / double(count)))
           {
             wanted = false;

@@ -65,8 +65,8 @@ int mostThreads()
 
 #ifdef __linux__
 
-/// Where the system may run a thread of the pool.
-struct Placement
+/// The processors on which the system may run a thread of the pool.
+struct ThreadAffinity
 {
   int Thread = 0; ///< the system's number; 0 if it has not started
   cpu_set_t Set = {};
@@ -77,34 +77,34 @@ int currentThread()
   return static_cast<int>(syscall(SYS_gettid));
 }
 
-/// The processors that a team may use.
-class Processors
+/// The processor on which the calling thread of a team runs.
+class CallersProcessor
 {
 public:
-  Processors()
-    : AreSeveral(sched_getaffinity(0, sizeof this->Allowed, &this->Allowed) == 0 &&
+  CallersProcessor()
+    : HasOthers(sched_getaffinity(0, sizeof this->Allowed, &this->Allowed) == 0 &&
         CPU_COUNT(&this->Allowed) > 1)
   {
-    this->follow();
+    this->update();
   }
 
   /// Returns whether the calling thread has moved to another processor.
-  bool follow()
+  bool update()
   {
-    const int now = this->AreSeveral ? sched_getcpu() : -1;
-    return now >= 0 && this->Callers.exchange(now, std::memory_order_relaxed) != now;
+    const int now = this->HasOthers ? sched_getcpu() : -1;
+    return now >= 0 && this->Number.exchange(now, std::memory_order_relaxed) != now;
   }
 
-  /// Keeps another thread off the calling thread's processor.
-  void keepOff(Placement& other) const
+  /// Lets another thread run on all other processors that the calling thread may use.
+  void excludeFrom(ThreadAffinity& other) const
   {
-    const int callers = this->Callers.load(std::memory_order_relaxed);
-    if (callers < 0 || other.Thread == 0)
+    const int number = this->Number.load(std::memory_order_relaxed);
+    if (number < 0 || other.Thread == 0)
     {
       return;
     }
     cpu_set_t others = this->Allowed;
-    CPU_CLR(callers, &others);
+    CPU_CLR(number, &others);
     if (!CPU_EQUAL(&others, &other.Set))
     {
       other.Set = others;
@@ -113,14 +113,14 @@ public:
   }
 
 private:
-  cpu_set_t Allowed = {};
-  bool AreSeveral;
-  std::atomic<int> Callers{ -1 }; ///< the calling thread's processor
+  cpu_set_t Allowed = {}; ///< the processors that the calling thread may use
+  bool HasOthers;         ///< whether these are several
+  std::atomic<int> Number{ -1 };
 };
 
 #else
 
-struct Placement
+struct ThreadAffinity
 {
   int Thread = 0;
 };
@@ -131,11 +131,11 @@ int currentThread()
 }
 
 /// Other systems do not say on which processor a thread runs.
-class Processors
+class CallersProcessor
 {
 public:
-  static bool follow() { return false; }
-  static void keepOff(Placement& /*other*/) {}
+  static bool update() { return false; }
+  static void excludeFrom(ThreadAffinity& /*other*/) {}
 };
 
 #endif
@@ -150,13 +150,13 @@ struct ThreadPool::Team
   std::atomic<int> Next{ 1 }; ///< the first share that nobody has begun
   std::atomic<int> Busy{ 0 }; ///< workers that have begun and not finished
   Worker* First = nullptr;    ///< a list of all workers
-  Processors Allowed = {};
+  CallersProcessor Processor = {};
   std::condition_variable Finished = {};
 
   void doShares();
   void add(Worker& worker);
   void remove(const Worker& worker);
-  void keepOff() const;
+  void excludeProcessor() const;
   void waitBriefly() const;
 };
 
@@ -166,7 +166,7 @@ struct ThreadPool::Worker
   ThreadPool::Team* Team = nullptr; ///< null while it is idle
   Worker* Next = nullptr;           ///< in the team's list
   bool IsCalled = false;            ///< has not yet begun to work for its team
-  Placement Place = {};
+  ThreadAffinity Affinity = {};
 };
 
 void ThreadPool::Team::doShares()
@@ -182,24 +182,24 @@ void ThreadPool::Team::add(Worker& worker)
   worker.Team = this;
   worker.IsCalled = true;
   worker.Next = std::exchange(this->First, &worker);
-  this->Allowed.keepOff(worker.Place);
+  this->Processor.excludeFrom(worker.Affinity);
 }
 
 void ThreadPool::Team::remove(const Worker& worker)
 {
-  Worker** place = &this->First;
-  while (*place != &worker)
+  Worker** link = &this->First;
+  while (*link != &worker)
   {
-    place = &(*place)->Next;
+    link = &(*link)->Next;
   }
-  *place = worker.Next;
+  *link = worker.Next;
 }
 
-void ThreadPool::Team::keepOff() const
+void ThreadPool::Team::excludeProcessor() const
 {
   for (Worker* worker = this->First; worker; worker = worker->Next)
   {
-    this->Allowed.keepOff(worker->Place);
+    this->Processor.excludeFrom(worker->Affinity);
   }
 }
 
@@ -257,12 +257,12 @@ void ThreadPool::run(int shares, const SharedWork& work)
   CurrentTeam = outer;
 }
 
-void ThreadPool::keepOthersOff()
+void ThreadPool::updateAffinity()
 {
-  if (CurrentTeam && CurrentTeam->Allowed.follow())
+  if (CurrentTeam && CurrentTeam->Processor.update())
   {
     const std::lock_guard<std::mutex> lock(instance().Mutex);
-    CurrentTeam->keepOff();
+    CurrentTeam->excludeProcessor();
   }
 }
 
@@ -332,10 +332,10 @@ void ThreadPool::release(Team& team)
 void ThreadPool::serve(Worker& worker)
 {
   std::unique_lock<std::mutex> lock(this->Mutex);
-  worker.Place.Thread = currentThread();
+  worker.Affinity.Thread = currentThread();
   if (worker.Team)
   {
-    worker.Team->Allowed.keepOff(worker.Place);
+    worker.Team->Processor.excludeFrom(worker.Affinity);
   }
   for (;;)
   {
@@ -375,9 +375,9 @@ void ThreadPool::discard(const NewWorkers& workers, std::size_t first)
 
 #ifdef _OPENMP
 
-/// Starts the threads of new workers: those of one region that never ends. None of them is the
-/// application's own, so OpenMP has other threads for the application's regions. It places the
-/// threads as its environment variables say.
+/// Starts the threads of new workers: those of one region that never ends. It is begun by a new
+/// thread, because the threads of the application's own regions belong to the thread that begins
+/// those. OMP_PLACES and OMP_PROC_BIND apply as in any region.
 void ThreadPool::start(const NewWorkers& workers)
 {
   const auto serveAll = [this, workers]

@@ -24,9 +24,10 @@ struct SharedWork
 ///
 /// A busy machine must not make several threads slower than one. OpenMP's own parallel regions do:
 /// each waits at its end for every thread, and while it waits it uses the processor that the other
-/// needs. Here nobody has to arrive: the calling thread does all shares that no other has begun,
-/// and then waits, asleep, only for those that have. On Linux the other threads are also kept off
-/// the calling thread's processor: the system often puts them there if the others are busy.
+/// needs. Here no thread waits for another to begin: the calling thread does all shares that are
+/// left, and then sleeps until those that others have begun are done. On Linux the other threads
+/// may not run on the calling thread's processor: the system often moves them there if the rest are
+/// busy.
 class VTKTIPPACCELERATORS_EXPORT ThreadPool
 {
 public:
@@ -38,10 +39,9 @@ public:
   /// this thread does all.
   void run(int shares, const SharedWork& work);
 
-  /// If the system has moved this thread to another processor since it called run(), keeps the
-  /// other threads off that processor. Work calls it now and then; in other threads it does
-  /// nothing.
-  static void keepOthersOff();
+  /// Call it now and then in work: if the system has moved the thread that called run() to another
+  /// processor, excludes that one from the affinity of the other threads. Does nothing in these.
+  static void updateAffinity();
 
   /// The number of the innermost share that this thread does; 0 outside of work.
   static int number();

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Parallel/Threads.h"
 
-#include "Parallel/UsableProcessors.h"
-
 #ifdef _OPENMP
 #include <omp.h>
 #endif
@@ -20,7 +18,7 @@ thread_local int chosenThreads = 0;
 
 } // namespace
 
-DefaultThreads defaultThreads()
+ProcessorCount defaultThreads()
 {
   static const char* const text = std::getenv("OMP_NUM_THREADS");
 #ifdef _OPENMP
@@ -35,7 +33,7 @@ DefaultThreads defaultThreads()
     return { number, "OMP_NUM_THREADS" };
   }
 #endif
-  return { usableProcessors().Count, usableProcessors().Reason };
+  return usableProcessors();
 }
 
 int usualThreads()

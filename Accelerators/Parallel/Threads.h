@@ -3,6 +3,7 @@
 #define tippThreads_h
 
 #include "Parallel/ThreadPool.h"
+#include "Parallel/UsableProcessors.h"
 #include "vtkTIPPAcceleratorsModule.h"
 
 namespace tipp
@@ -25,15 +26,9 @@ inline int threadNumber()
   return ThreadPool::number();
 }
 
-/// The number of threads to use if none is requested, and where it comes from: "OMP_NUM_THREADS",
-/// "OpenMP's functions" (the application called omp_set_num_threads()), or the reason of
-/// usableProcessors().
-struct DefaultThreads
-{
-  int Count;
-  const char* From;
-};
-VTKTIPPACCELERATORS_EXPORT DefaultThreads defaultThreads();
+/// The number of threads to use if none is requested: that of "OMP_NUM_THREADS"; that of "OpenMP's
+/// functions", if the application called omp_set_num_threads(); else usableProcessors().
+VTKTIPPACCELERATORS_EXPORT ProcessorCount defaultThreads();
 
 /// The same number, or what the calling thread has set instead.
 VTKTIPPACCELERATORS_EXPORT int usualThreads();

@@ -80,7 +80,7 @@ int ranksOnNode()
   return 0;
 }
 
-UsableProcessors findUsableProcessors()
+ProcessorCount findUsableProcessors()
 {
   double limit = 0;
 #ifdef __linux__
@@ -122,9 +122,9 @@ double controlGroupLimit(const std::string& groups, const std::string& folder)
   return least;
 }
 
-UsableProcessors fewestProcessors(int allowed, int all, double limit, int ranks)
+ProcessorCount fewestProcessors(int allowed, int all, double limit, int ranks)
 {
-  UsableProcessors usable{ std::max(allowed, 1), allowed < all ? "affinity" : "processors" };
+  ProcessorCount usable{ std::max(allowed, 1), allowed < all ? "affinity" : "processors" };
   if (limit > 0 && std::ceil(limit) < usable.Count)
   {
     usable = { int(std::ceil(limit)), "control group" };
@@ -136,9 +136,9 @@ UsableProcessors fewestProcessors(int allowed, int all, double limit, int ranks)
   return usable;
 }
 
-const UsableProcessors& usableProcessors()
+const ProcessorCount& usableProcessors()
 {
-  static const UsableProcessors found = findUsableProcessors();
+  static const ProcessorCount found = findUsableProcessors();
   return found;
 }
 

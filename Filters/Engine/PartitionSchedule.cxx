@@ -331,7 +331,7 @@ void ReadyPartitions::release(PartitionIndex p)
 
 PartitionIndex ReadyPartitions::take()
 {
-  ThreadPool::keepOthersOff();
+  ThreadPool::updateAffinity();
   for (int turn = 0; !this->isStopped(); ++turn)
   {
     const PartitionIndex p = this->tryTake();

@@ -104,7 +104,7 @@ RunStatistics countsOf(std::int64_t points, const char* key, const char* array, 
 /// the first.
 void addThreads(RunStatistics& run, const char* key, int threads)
 {
-  const DefaultThreads usual = defaultThreads();
+  const ProcessorCount usual = defaultThreads();
   run.add(key, "Threads", threads);
   run.add("default_threads", "DefaultThreads", usual.Count);
   run.add("default_threads_from", "DefaultThreadsFrom", std::string(usual.From));

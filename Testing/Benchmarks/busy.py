@@ -3,9 +3,8 @@
 
 busy.py BUILD [--old BUILD] [--loops 0,1,2] [--threads T] [--rounds R] [--rows "NAME;NAME"] [--large]
 
-Beside each row run as many endless loops as --loops says, each a process that always wants a processor. A row runs in
-a process of its own for each build, which calls the Python function on one and on T threads by turns; the table has
-the medians. --large adds 50 million points. BUILD is a build folder with the Python package.
+Each row is measured while as many other processes as --loops says run endless loops. It runs in a process of its own
+for each build, which calls the Python function on one and on T threads alternately; the table has the medians. --large adds 50 million points. BUILD is a build folder with the Python package.
 """
 import argparse
 import contextlib

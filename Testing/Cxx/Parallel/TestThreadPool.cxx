@@ -6,14 +6,9 @@
 #include <array>
 #include <atomic>
 #include <chrono>
-#include <mutex>
-#include <set>
 #include <thread>
 #include <vector>
 
-#ifdef _OPENMP
-#include <omp.h>
-#endif
 #ifdef __linux__
 #include <sched.h>
 #endif
@@ -127,31 +122,10 @@ TEST(ThreadPool, WorkWithinAnApplicationsRegionStaysInItsThread)
   }
   EXPECT_EQ(6, calls);
 }
-
-TEST(ThreadPool, UsesNoMoreThreadsThanOpenMPAllows)
-{
-  if (omp_get_thread_limit() > 2)
-  {
-    GTEST_SKIP() << "Needs OMP_THREAD_LIMIT=2.";
-  }
-  std::mutex mutex;
-  std::set<std::thread::id> ids;
-  for (int repetition = 0; repetition < 100; ++repetition)
-  {
-    tipp::runOnThreads(4,
-      [&](int)
-      {
-        std::this_thread::sleep_for(std::chrono::microseconds(100));
-        const std::lock_guard<std::mutex> lock(mutex);
-        ids.insert(std::this_thread::get_id());
-      });
-  }
-  EXPECT_EQ(2, ids.size());
-}
 #endif
 
 #ifdef __linux__
-TEST(ThreadPool, OtherThreadsStayOffTheCallersProcessor)
+TEST(ThreadPool, OtherThreadsDoNotRunOnTheCallersProcessor)
 {
   cpu_set_t allowed;
   ASSERT_EQ(0, sched_getaffinity(0, sizeof allowed, &allowed));
@@ -178,7 +152,7 @@ TEST(ThreadPool, OtherThreadsStayOffTheCallersProcessor)
           CPU_ZERO(&one);
           CPU_SET(cpu, &one);
           EXPECT_EQ(0, sched_setaffinity(0, sizeof one, &one));
-          tipp::ThreadPool::keepOthersOff();
+          tipp::ThreadPool::updateAffinity();
           moved = true;
           return;
         }

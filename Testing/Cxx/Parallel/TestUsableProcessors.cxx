@@ -78,10 +78,10 @@ TEST_F(ControlGroups, WhatIsNotALimitIsNone)
   }
 }
 
-void expectProcessors(int count, const std::string& reason, const UsableProcessors& found)
+void expectProcessors(int count, const std::string& from, const ProcessorCount& found)
 {
   EXPECT_EQ(count, found.Count);
-  EXPECT_EQ(reason, found.Reason);
+  EXPECT_EQ(from, found.From);
 }
 
 TEST(UsableProcessors, AreTheFewestOfAllLimits)
