@@ -15,11 +15,6 @@ namespace check
 namespace
 {
 
-bool isSame(Position a, Position b)
-{
-  return a.x == b.x && a.y == b.y;
-}
-
 constexpr std::size_t start = 0;
 constexpr std::size_t end = 1;
 
@@ -76,7 +71,9 @@ ConstraintRoutes::Node ConstraintRoutes::makeNode(std::int64_t vertex, Position 
 {
   const bool isOn = this->Line.holds(at);
   const bool rounds = isOn || this->Line.roundsTo(at);
-  return { vertex, at, isOn, rounds, isOn || (rounds && this->Setting.Attracts(vertex)) };
+  const bool isExplained =
+    isOn || this->Setting.PassesAllNear || (rounds && this->Setting.Attracts(vertex));
+  return { vertex, at, isOn, rounds, isExplained };
 }
 
 bool ConstraintRoutes::areBeside(Position p, Position q) const

@@ -30,6 +30,9 @@ struct RouteSetting
   bool IsCut = false;
   /// How far rounding may have led a constraint, in x and y; by default as far as 16 rounds can.
   std::optional<Position> WideReach = {};
+  /// Whether a constraint passes each vertex that is so near, even if it does not round to it and
+  /// the vertex does not attract it.
+  bool PassesAllNear = false;
 };
 
 /// A way along edges of the mesh.
@@ -125,7 +128,7 @@ private:
     Position At;
     bool IsOn;        ///< the constraint
     bool Rounds;      ///< the constraint rounds to it
-    bool IsExplained; ///< and it attracts constraints
+    bool IsExplained; ///< and it attracts constraints, or the setting says that it is passed
     bool LeadsToEnd = false;
     std::vector<Step> Steps = {};
   };

@@ -19,11 +19,6 @@ Position at(const CheckedPiece& piece, std::int64_t point)
   return { piece.XY[2 * std::size_t(point)], piece.XY[2 * std::size_t(point) + 1] };
 }
 
-bool isSame(Position a, Position b)
-{
-  return a.x == b.x && a.y == b.y;
-}
-
 FixedEdge sorted(std::int64_t a, std::int64_t b)
 {
   return { std::min(a, b), std::max(a, b) };

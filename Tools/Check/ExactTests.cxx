@@ -130,7 +130,6 @@ std::int64_t countOffHull(const std::vector<double>& xy, const std::vector<Direc
     }
   }
   std::sort(points.begin(), points.end(), isBefore);
-  const auto isSame = [](Position a, Position b) { return a.x == b.x && a.y == b.y; };
   points.erase(std::unique(points.begin(), points.end(), isSame), points.end());
   std::set<std::array<double, 4>> hull;
   for (const auto& half :

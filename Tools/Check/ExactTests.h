@@ -23,6 +23,11 @@ inline bool isFinite(Position p)
   return std::isfinite(p.x) && std::isfinite(p.y);
 }
 
+inline bool isSame(Position a, Position b)
+{
+  return a.x == b.x && a.y == b.y;
+}
+
 inline bool isBefore(Position a, Position b)
 {
   return a.x < b.x || (a.x == b.x && a.y < b.y);

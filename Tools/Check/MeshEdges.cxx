@@ -88,14 +88,12 @@ bool MeshEdges::needsConstraint(std::int64_t a, std::int64_t b, bool tieRule, bo
 std::vector<std::int64_t> MeshEdges::borderVertices() const
 {
   std::vector<std::int64_t> vertices;
-  for (const Edge& edge : this->Edges)
-  {
-    if (edge.Left == None)
+  this->visitBorder(
+    [&vertices](std::int64_t from, std::int64_t to)
     {
-      vertices.push_back(edge.From);
-      vertices.push_back(edge.To);
-    }
-  }
+      vertices.push_back(from);
+      vertices.push_back(to);
+    });
   std::sort(vertices.begin(), vertices.end(),
     [this](std::int64_t a, std::int64_t b)
     { return this->isBeforeAt(a, b) || (!this->isBeforeAt(b, a) && a < b); });

@@ -55,6 +55,19 @@ public:
       [&test](const Edge& edge) { return test(edge.From, edge.To); });
   }
 
+  /// Calls visit(from, to) for each edge that has one triangle only, which is on its left.
+  template <typename Visit>
+  void visitBorder(const Visit& visit) const
+  {
+    for (const Edge& edge : this->Edges)
+    {
+      if (edge.Left == None)
+      {
+        visit(edge.To, edge.From);
+      }
+    }
+  }
+
   /// Returns the vertices of edges that have one triangle only, sorted by position.
   std::vector<std::int64_t> borderVertices() const;
 

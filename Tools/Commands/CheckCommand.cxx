@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Check/AngleBound.h"
 #include "Check/DelaunayChecker.h"
+#include "Commands/CheckQuality.h"
 #include "Commands/Commands.h"
 #include "Commands/PointArguments.h"
 #include "Commands/Report.h"
 #include "Console/Process.h"
-#include "Constraints/ReadConstraintFile.h"
 #include "Files/IOError.h"
 #include "Meshes/MeshFiles.h"
 #include "Parallel/Sort.h"
@@ -26,8 +27,10 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace tipp
 {
@@ -57,6 +60,14 @@ checked.
 
 Tetrahedra are checked in the same way, in memory.
 
+With --quality, the mesh is a refined one: it may have any further points, and segments are
+chains of edges through points that were split off in double precision. Each segment must be
+such a chain wherever it is inside of the mesh, the border consists of segments or edges of
+the input's convex hull, the input's points are vertices unless they are outside, and the
+bounds hold. A triangle below the angle is excused if its shortest edge joins two segments
+that meet at less than 60 degrees, or with --listed as the list says; an entry 'input angle'
+must be of this kind. The input is POINTS, if given, and what --constraints holds.
+
 Examples:
   tipp check points.npy triangles.npy
   tipp check survey.csv --x easting --y northing mesh.vtp --tie-rule
@@ -64,6 +75,7 @@ Examples:
   tipp check points.npy mesh.tipp
   tipp check survey.csv survey.vtp --constraints breaklines.vtp --tie-rule
   tipp check particles.npy tetrahedra.vtu --tie-rule
+  tipp check mesh.vtu --quality 30 --max-area 0.1 --constraints lake.poly
 )";
 
 /// The options of `tipp check`.
@@ -72,8 +84,9 @@ struct CheckArguments
   std::string Points;
   std::string Mesh;
   PointOptions Columns;
-  std::string Constraints; ///< path of a file; empty: none
+  std::vector<std::string> Constraints; ///< paths of files
   CheckOptions Options;
+  QualityArguments Quality; ///< what is checked if its MinAngle is not empty
 
   /// Returns whether the mesh lacks triangles: with --cut, or if there are polygons or holes.
   bool isCutBy(const ConstraintTable& table) const
@@ -185,7 +198,7 @@ CheckReport checkConstrained(
                   "was made from.",
         points.size() / 2, arguments.Points));
   }
-  const ConstraintTable table = readConstraintFile(arguments.Constraints, arguments.Columns.Wrap);
+  const ConstraintTable table = readConstraintFiles(arguments.Constraints, arguments.Columns.Wrap);
   std::vector<std::array<std::int64_t, 2>> constraints = constraintsAmong(xy, table);
   const std::int64_t count = std::int64_t(xy.size() / 2);
   const auto lost = std::remove_if(constraints.begin(), constraints.end(),
@@ -338,7 +351,7 @@ CheckReport checkPartitioned(const CheckArguments& arguments)
   ConstraintTable table;
   if (!arguments.Constraints.empty())
   {
-    table = readConstraintFile(arguments.Constraints, arguments.Columns.Wrap);
+    table = readConstraintFiles(arguments.Constraints, arguments.Columns.Wrap);
   }
   const InputSum input = readInput(arguments, table);
   if (!arguments.Constraints.empty())
@@ -439,8 +452,27 @@ CheckReport checkInSpace(const CheckArguments& arguments)
   return checkTetrahedra(xyz, stored.Ids, arguments.Options.TieRule, stored.Neighbors);
 }
 
+/// The mesh is the last of the files, the input's points the one before it.
+int runQuality(const CheckArguments& arguments)
+{
+  QualityArguments quality = arguments.Quality;
+  quality.Points = arguments.Mesh.empty() ? "" : arguments.Points;
+  quality.Mesh = arguments.Mesh.empty() ? arguments.Points : arguments.Mesh;
+  quality.Constraints = arguments.Constraints;
+  quality.Columns = arguments.Columns;
+  return checkQualityOfFiles(quality);
+}
+
 int runCheck(const CheckArguments& arguments)
 {
+  if (!arguments.Quality.MinAngle.empty())
+  {
+    return runQuality(arguments);
+  }
+  if (arguments.Mesh.empty())
+  {
+    throw CLI::RequiredError("mesh");
+  }
   const bool isPartitioned = isStoredInPieces(arguments.Mesh);
   const bool inSpace = isPartitioned ? openPartitionedMesh(arguments.Mesh).CellSize == 4
                                      : holdsTetrahedra(arguments.Mesh);
@@ -464,24 +496,66 @@ int runCheck(const CheckArguments& arguments)
   return report.isCorrect() ? Success : report.faults().empty() ? Undecided : Failure;
 }
 
+/// Validates an angle on the command line: returns an error message, or an empty text.
+std::string checkAngle(const std::string& text)
+{
+  try
+  {
+    const check::AngleBound parsed(text);
+    return {};
+  }
+  catch (const std::invalid_argument& error)
+  {
+    return error.what();
+  }
+}
+
+/// Adds --quality and the options that need it. `others` mean nothing with it.
+void addQualityOptions(
+  CLI::App& command, QualityArguments& quality, const std::vector<CLI::Option*>& others)
+{
+  CLI::Option* const angle = command.add_option("--quality", quality.MinAngle,
+    "Check a refined mesh, whose angles must be at least as large: in degrees, 0 to 60. Only the "
+    "mesh is required, and POINTS come before it");
+  angle->check(checkAngle);
+  for (CLI::Option* const other : others)
+  {
+    angle->excludes(other);
+  }
+  command
+    .add_option(
+      "--max-area", quality.MaxArea, "With --quality: the largest area that a triangle may have")
+    ->check(checkPositive)
+    ->needs(angle);
+  command
+    .add_option("--listed", quality.Listed,
+      "With --quality: the file of 'tipp mesh --stats', whose list below_bound must have all "
+      "triangles with an angle below the bound, each with its angle and the reason")
+    ->needs(angle);
+}
+
 void addOptions(CLI::App& command, CheckArguments& arguments)
 {
   command.add_option("points", arguments.Points, "The points, in any format of 'tipp delaunay'")
     ->required();
-  command.add_option("mesh", arguments.Mesh, meshFormats)->required();
+  command.add_option("mesh", arguments.Mesh, meshFormats);
   addPointOptions(command, arguments.Columns);
   addBoundsOption(command, arguments.Columns);
-  command.add_flag("--tie-rule", arguments.Options.TieRule,
+  CLI::Option* const tieRule = command.add_flag("--tie-rule", arguments.Options.TieRule,
     "Also check that ties between co-circular points are broken by the points' lexicographic "
     "order, which makes the triangulation unique");
-  command.add_flag("--boundary-free", arguments.Options.BoundaryFree,
-    "The mesh need not fill the convex hull: do not check its boundary and Euler's formula");
-  command.add_option("--constraints", arguments.Constraints,
-    "The file of constraints that 'tipp delaunay' used; the mesh may have more points after the "
-    "given ones");
+  CLI::Option* const boundaryFree =
+    command.add_flag("--boundary-free", arguments.Options.BoundaryFree,
+      "The mesh need not fill the convex hull: do not check its boundary and Euler's formula");
+  command
+    .add_option("--constraints", arguments.Constraints,
+      "The file of constraints that 'tipp delaunay' used; the mesh may have more points after the "
+      "given ones. May be given several times")
+    ->allow_extra_args(false);
   addCurveOption(command);
-  command.add_flag("--cut", arguments.Options.IsCut,
+  CLI::Option* const cut = command.add_flag("--cut", arguments.Options.IsCut,
     "With --constraints: the mesh lacks triangles outside of polygons or in holes");
+  addQualityOptions(command, arguments.Quality, { tieRule, boundaryFree, cut });
 }
 
 } // namespace

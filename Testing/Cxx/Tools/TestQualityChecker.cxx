@@ -1,0 +1,403 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Check/QualityChecker.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace
+{
+
+using tipp::checkQuality;
+using tipp::QualityReport;
+using tipp::RefinedMesh;
+using tipp::ThinReason;
+using tipp::check::Position;
+
+constexpr double degree = 0.017453292519943295; // in radians
+
+/// Four corners and the sides between them.
+RefinedMesh squareInput()
+{
+  RefinedMesh mesh;
+  mesh.InputXY = { 0, 0, 4, 0, 4, 4, 0, 4 };
+  mesh.Segments = { { 0, 1 }, { 1, 2 }, { 2, 3 }, { 3, 0 } };
+  return mesh;
+}
+
+/// The square with a split point on each side and a point in the middle: eight halves of squares.
+RefinedMesh grid()
+{
+  RefinedMesh mesh = squareInput();
+  mesh.MinAngle = "45";
+  mesh.XY = { 0, 0, 4, 0, 4, 4, 0, 4, 2, 0, 4, 2, 2, 4, 0, 2, 2, 2 };
+  mesh.Triangles = { 0, 4, 8, 4, 1, 8, 1, 5, 8, 5, 2, 8, 2, 6, 8, 6, 3, 8, 3, 7, 8, 7, 0, 8 };
+  return mesh;
+}
+
+/// The square with one point, so that the triangle 0 has two such angles, in degrees.
+RefinedMesh lowered(double angle)
+{
+  RefinedMesh mesh = squareInput();
+  mesh.MinAngle = "30";
+  mesh.XY = mesh.InputXY;
+  mesh.XY.insert(mesh.XY.end(), { 2, 2 * std::tan(angle * degree) });
+  mesh.Triangles = { 0, 1, 4, 1, 2, 4, 2, 3, 4, 3, 0, 4 };
+  return mesh;
+}
+
+/// Two segments that meet at 20 degrees, with split points at equal distances. The triangle 0 is
+/// between them, and the others have no angle below 40 degrees.
+RefinedMesh wedge()
+{
+  RefinedMesh mesh;
+  const double x = std::cos(20 * degree);
+  const double y = std::sin(20 * degree);
+  mesh.InputXY = { 0, 0, 4, 0, 3.9 * x, 3.9 * y };
+  mesh.Segments = { { 0, 1 }, { 0, 2 } };
+  mesh.MinAngle = "10";
+  mesh.XY = mesh.InputXY;
+  mesh.XY.insert(mesh.XY.end(), { 3, 0, 3 * x, 3 * y });
+  mesh.Triangles = { 0, 3, 4, 3, 1, 2, 3, 2, 4 };
+  return mesh;
+}
+
+/// A segment whose split points were split off again and again, in any order, and a point above it.
+RefinedMesh splitSegment(std::uint64_t seed)
+{
+  RefinedMesh mesh;
+  mesh.InputXY = { 1e6 / 3, 4e6 / 7, 1.1e6 / 3, 4.3e6 / 7, 1e6 / 3, 4.3e6 / 7 };
+  mesh.Segments = { { 0, 1 } };
+  const auto at = [&mesh](std::size_t i) {
+    return Position{ mesh.InputXY[2 * i], mesh.InputXY[2 * i + 1] };
+  };
+  std::vector<Position> chain{ at(0), at(1) };
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> part(1.0 / 3, 2.0 / 3);
+  for (int i = 0; i < 200; ++i)
+  {
+    const std::size_t from = random() % (chain.size() - 1);
+    const Position a = chain[from];
+    const Position b = chain[from + 1];
+    const double f = part(random);
+    const Position split{ a.x + (b.x - a.x) * f, a.y + (b.y - a.y) * f };
+    chain.insert(chain.begin() + std::ptrdiff_t(from) + 1, split);
+  }
+  mesh.XY = { at(2).x, at(2).y };
+  for (std::size_t i = 0; i < chain.size(); ++i)
+  {
+    mesh.XY.insert(mesh.XY.end(), { chain[i].x, chain[i].y });
+    if (i > 0)
+    {
+      mesh.Triangles.insert(mesh.Triangles.end(), { 0, std::int64_t(i), std::int64_t(i) + 1 });
+    }
+  }
+  return mesh;
+}
+
+void expectCorrect(const RefinedMesh& mesh)
+{
+  for (const std::string& fault : checkQuality(mesh).faults())
+  {
+    ADD_FAILURE() << fault;
+  }
+}
+
+/// Expects one fault, and these words in its sentence.
+void expectFault(const RefinedMesh& mesh, const std::string& words)
+{
+  const std::vector<std::string> faults = checkQuality(mesh).faults();
+  ASSERT_EQ(1u, faults.size()) << (faults.empty() ? "" : faults[1]);
+  EXPECT_NE(std::string::npos, faults[0].find(words)) << faults[0];
+}
+
+TEST(QualityChecker, AcceptsARefinedSquare)
+{
+  RefinedMesh mesh = grid();
+  mesh.MaxArea = [](Position) { return 2.0; };
+  expectCorrect(mesh);
+}
+
+TEST(QualityChecker, ReportsFigures)
+{
+  const QualityReport report = checkQuality(lowered(20));
+  EXPECT_NEAR(20, report.LeastAngle, 1e-12);
+  EXPECT_EQ(0, report.LeastAngleAt);
+  EXPECT_EQ(1, report.Histogram[4]); // or beside it in bin 3
+  EXPECT_EQ(1, report.Below);
+  const double low = 4 * std::tan(20 * degree);
+  EXPECT_NEAR(8 - low, report.LargestArea, 1e-12);
+  EXPECT_NEAR(4 / low, report.Grading, 1e-12);
+}
+
+TEST(QualityChecker, RefusesAnAngleBelowTheBound)
+{
+  expectCorrect(lowered(30.1));
+  expectFault(lowered(29.9),
+    "1 triangles have an angle below 30 degrees and are not excused; the "
+    "first is triangle 0, with 29.9");
+}
+
+TEST(QualityChecker, RefusesAnAreaAboveTheLimit)
+{
+  RefinedMesh mesh = grid();
+  mesh.MaxArea = [](Position) { return std::nextafter(2.0, 0.0); };
+  expectFault(mesh, "8 triangles are above the limit on areas; the first is triangle 0");
+}
+
+TEST(QualityChecker, EvaluatesTheAreaLimitAtCentroids)
+{
+  RefinedMesh mesh = grid();
+  mesh.MaxArea = [](Position p) { return p.x > 3 && p.y < 1.5 ? 1.9 : HUGE_VAL; };
+  expectFault(mesh, "1 triangles are above the limit on areas; the first is triangle 2");
+}
+
+TEST(QualityChecker, RefusesALimitThatIsNotANumber)
+{
+  RefinedMesh mesh = grid();
+  mesh.MaxArea = [](Position) { return std::nan(""); };
+  expectFault(mesh, "8 triangles are above the limit on areas");
+}
+
+TEST(QualityChecker, AcceptsRoundedSplitPoints)
+{
+  for (std::uint64_t seed = 0; seed < 20; ++seed)
+  {
+    expectCorrect(splitSegment(seed));
+  }
+}
+
+TEST(QualityChecker, RefusesASplitPointMovedOutwards)
+{
+  RefinedMesh mesh = splitSegment(1);
+  mesh.XY[101] -= 1e-5;
+  const QualityReport report = checkQuality(mesh);
+  EXPECT_EQ(1, report.LostSegments.Count);
+  EXPECT_EQ(0, report.LostSegments.First);
+}
+
+/// Then the segment is outside of the mesh, and the mesh has a border that is no segment.
+TEST(QualityChecker, RefusesASplitPointMovedInwards)
+{
+  RefinedMesh mesh = splitSegment(1);
+  mesh.XY[101] += 1e-5;
+  EXPECT_EQ(2, checkQuality(mesh).OpenBorder.Count);
+}
+
+TEST(QualityChecker, RefusesASplitPointMovedInside)
+{
+  RefinedMesh mesh = grid();
+  mesh.Segments.push_back({ 0, 2 });
+  mesh.XY[16] += 1e-9;
+  const QualityReport report = checkQuality(mesh);
+  EXPECT_EQ(1, report.LostSegments.Count);
+  EXPECT_EQ(4, report.LostSegments.First);
+}
+
+TEST(QualityChecker, AcceptsASegmentThatIsNotDelaunay)
+{
+  RefinedMesh mesh;
+  mesh.InputXY = { 0, 0, 4, -1, 8, 0, 4, 1 };
+  mesh.Segments = { { 0, 2 } };
+  mesh.XY = mesh.InputXY;
+  mesh.Triangles = { 0, 1, 2, 0, 2, 3 };
+  expectCorrect(mesh);
+  mesh.Segments.clear();
+  expectFault(mesh, "1 edges are not locally Delaunay");
+}
+
+TEST(QualityChecker, RefusesALostSegment)
+{
+  RefinedMesh mesh;
+  mesh.InputXY = { 0, 0, 4, -1, 8, 0, 4, 1 };
+  mesh.Segments = { { 0, 1 }, { 0, 2 } };
+  mesh.XY = mesh.InputXY;
+  mesh.Triangles = { 0, 1, 3, 1, 2, 3 };
+  expectFault(mesh, "1 segments are not chains of edges; the first is segment 1");
+}
+
+TEST(QualityChecker, RefusesASegmentOfNoPoint)
+{
+  RefinedMesh mesh = grid();
+  mesh.Segments.push_back({ 0, 4 });
+  expectFault(mesh, "1 segments are not chains of edges; the first is segment 4");
+}
+
+TEST(QualityChecker, AcceptsCrossingSegments)
+{
+  RefinedMesh mesh = grid();
+  mesh.Segments.insert(mesh.Segments.end(), { { 0, 2 }, { 1, 3 } });
+  expectCorrect(mesh);
+}
+
+TEST(QualityChecker, AcceptsSegmentsOutsideOfTheMesh)
+{
+  RefinedMesh mesh = grid();
+  mesh.InputXY.insert(mesh.InputXY.end(), { 6, 0, 8, 1 });
+  mesh.Segments.insert(mesh.Segments.end(), { { 4, 5 }, { 4, 2 } });
+  expectCorrect(mesh);
+}
+
+TEST(QualityChecker, RefusesASegmentThatRunsThroughTriangles)
+{
+  RefinedMesh mesh = grid();
+  mesh.InputXY.insert(mesh.InputXY.end(), { -2, 1, 6, 1.5 });
+  mesh.Segments.push_back({ 4, 5 });
+  expectFault(mesh, "1 segments are not chains of edges; the first is segment 4");
+}
+
+TEST(QualityChecker, RefusesALostPoint)
+{
+  RefinedMesh mesh = grid();
+  mesh.InputXY.insert(mesh.InputXY.end(), { 9, 9, 3, 3 }); // outside, and on an edge
+  expectFault(
+    mesh, "1 points of the input are inside of the mesh, but no vertices; the first is point 5");
+}
+
+TEST(QualityChecker, RefusesAFilledHole)
+{
+  RefinedMesh mesh = grid();
+  mesh.Holes = { 9, 9, 3, 2.5 };
+  expectFault(mesh, "1 points of holes are in a triangle; the first is hole 1");
+}
+
+TEST(QualityChecker, RefusesALostTriangle)
+{
+  RefinedMesh mesh = grid();
+  mesh.Triangles.erase(mesh.Triangles.begin(), mesh.Triangles.begin() + 3);
+  expectFault(mesh, "2 border edges are neither on segments nor on the convex hull of the input");
+}
+
+TEST(QualityChecker, RefusesAMeshWithoutTriangles)
+{
+  RefinedMesh mesh = grid();
+  mesh.Triangles.clear();
+  EXPECT_FALSE(checkQuality(mesh).isCorrect());
+}
+
+TEST(QualityChecker, RefusesTrianglesOfNoPoint)
+{
+  RefinedMesh mesh = grid();
+  mesh.Triangles[0] = 9;
+  mesh.Triangles[4] = -1;
+  EXPECT_EQ(2, checkQuality(mesh).Mesh.BadIds);
+}
+
+TEST(QualityChecker, WithoutInputLeavesTheBorderUnchecked)
+{
+  RefinedMesh mesh = grid();
+  mesh.InputXY.clear();
+  mesh.Segments.clear();
+  mesh.Triangles.erase(mesh.Triangles.begin(), mesh.Triangles.begin() + 3);
+  expectCorrect(mesh);
+}
+
+TEST(QualityChecker, HullIsTheBorderOfPoints)
+{
+  RefinedMesh mesh = grid();
+  mesh.Segments.clear();
+  expectCorrect(mesh);
+}
+
+TEST(QualityChecker, ExcusesInputAngles)
+{
+  RefinedMesh mesh = wedge();
+  expectCorrect(mesh);
+  mesh.MinAngle = "30";
+  expectCorrect(mesh);
+  EXPECT_EQ(1, checkQuality(mesh).Excused[std::size_t(ThinReason::InputAngle)]);
+}
+
+TEST(QualityChecker, AcceptsListedTriangles)
+{
+  for (const ThinReason reason : { ThinReason::ShortestEdge, ThinReason::Rounding })
+  {
+    RefinedMesh mesh = lowered(29.9);
+    mesh.Listed = { { 0, 29.9000004, reason } };
+    expectCorrect(mesh);
+    EXPECT_EQ(1, checkQuality(mesh).Excused[std::size_t(reason)]);
+  }
+}
+
+TEST(QualityChecker, AcceptsAListedInputAngle)
+{
+  RefinedMesh mesh = wedge();
+  mesh.MinAngle = "21";
+  mesh.Listed = { { 0, 20, ThinReason::InputAngle } };
+  expectCorrect(mesh);
+}
+
+TEST(QualityChecker, RefusesATriangleThatIsNotListed)
+{
+  RefinedMesh mesh = wedge();
+  mesh.MinAngle = "21";
+  mesh.Listed.emplace();
+  expectFault(mesh, "1 triangles have an angle below 21 degrees and are not excused");
+}
+
+TEST(QualityChecker, RefusesAListedInputAngleThatIsNone)
+{
+  RefinedMesh mesh = lowered(29.9);
+  mesh.Listed = { { 0, 29.9, ThinReason::InputAngle } };
+  expectFault(mesh, "1 listed triangles are not between segments that meet below 60 degrees");
+}
+
+TEST(QualityChecker, RefusesAWrongListedAngle)
+{
+  RefinedMesh mesh = lowered(29.9);
+  mesh.Listed = { { 0, 29.90001, ThinReason::Rounding } };
+  expectFault(mesh, "1 listed triangles have another smallest angle; the first is triangle 0");
+  mesh.Listed = { { 0, std::nan(""), ThinReason::Rounding } };
+  expectFault(mesh, "1 listed triangles have another smallest angle");
+}
+
+TEST(QualityChecker, RefusesAListedTriangleAboveTheBound)
+{
+  RefinedMesh mesh = lowered(30.1);
+  mesh.Listed = { { 0, 30.1, ThinReason::Rounding } };
+  expectFault(mesh, "1 listed triangles have no angle below 30 degrees; the first is triangle 0");
+}
+
+TEST(QualityChecker, RefusesEntriesOfNoTriangle)
+{
+  RefinedMesh mesh = lowered(29.9);
+  mesh.Listed = { { 0, 29.9, ThinReason::Rounding }, { 4, 20, ThinReason::Rounding },
+    { -1, 20, ThinReason::Rounding }, { 0, 29.9, ThinReason::Rounding } };
+  expectFault(mesh,
+    "3 entries of the list name no triangle, or one that is listed before; the first is entry 1");
+}
+
+/// The shortest edge is on one side, although several segments have its ends.
+TEST(QualityChecker, OverlappingSegmentsAreNoInputAngle)
+{
+  RefinedMesh mesh = squareInput();
+  mesh.Segments.insert(mesh.Segments.end(), { { 0, 1 }, { 1, 0 } });
+  mesh.MinAngle = "30";
+  mesh.XY = { 0, 0, 4, 0, 4, 4, 0, 4, 1.9, 0, 2.1, 0, 2, 2 };
+  mesh.Triangles = { 0, 4, 6, 4, 5, 6, 5, 1, 6, 1, 2, 6, 2, 3, 6, 3, 0, 6 };
+  expectFault(mesh,
+    "1 triangles have an angle below 30 degrees and are not excused; the first is "
+    "triangle 1");
+}
+
+/// Points so far from the origin and so near that doubles cannot tell whether the limits hold.
+TEST(QualityChecker, IsExactForTinyAndHugeCoordinates)
+{
+  for (const double scale : { 0x1p-1000, 0x1p-500, 0x1p500, 0x1p1000 })
+  {
+    RefinedMesh mesh = grid();
+    for (std::vector<double>* const xy : { &mesh.XY, &mesh.InputXY })
+    {
+      for (double& coordinate : *xy)
+      {
+        coordinate *= scale;
+      }
+    }
+    expectCorrect(mesh);
+  }
+}
+
+} // namespace
