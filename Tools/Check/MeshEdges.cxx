@@ -16,8 +16,8 @@ MeshEdges::MeshEdges(const std::vector<double>& xy, const std::vector<std::int64
   for (std::size_t t = 0; t + 2 < triangles.size(); t += 3)
   {
     const std::int64_t* const corners = &triangles[t];
-    if (std::any_of(
-          corners, corners + 3, [points](std::int64_t id) { return id < 0 || id >= points; }))
+    if (std::any_of(corners, corners + 3,
+          [&](std::int64_t id) { return id < 0 || id >= points || !isFinite(this->at(id)); }))
     {
       continue;
     }
@@ -36,8 +36,7 @@ MeshEdges::MeshEdges(const std::vector<double>& xy, const std::vector<std::int64
   this->Edges.erase(end, this->Edges.end());
   for (const Edge& edge : this->Edges)
   {
-    if ((this->Vertices.empty() || this->Vertices.back() != edge.From) &&
-      isFinite(this->at(edge.From)))
+    if (this->Vertices.empty() || this->Vertices.back() != edge.From)
     {
       this->Vertices.push_back(edge.From);
     }

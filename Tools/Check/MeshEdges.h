@@ -21,7 +21,7 @@ public:
   static constexpr std::int64_t None = -1;
 
   /// `xy`: x and y of each point; it must outlive this object. `triangles`: three indices of points
-  /// each; those with an index that does not exist are left out.
+  /// each; those with an index that does not exist, or of a point that is not finite, are left out.
   MeshEdges(const std::vector<double>& xy, const std::vector<std::int64_t>& triangles);
 
   Position at(std::int64_t point) const

@@ -20,9 +20,14 @@ SplitChains::SplitChains(const MeshEdges& mesh)
   // whether the gap is outside of the mesh, and it could replace edges of the border.
   this->Setting.PassesAllNear = true;
   mesh.visitBorder(
-    [this](std::int64_t from, std::int64_t to) {
-      this->BorderEdges.push_back({ this->Mesh.at(from), this->Mesh.at(to) });
+    [this](std::int64_t from, std::int64_t to)
+    {
+      const Position p = this->Mesh.at(from);
+      const Position q = this->Mesh.at(to);
+      this->BorderEdges.push_back(p.x < q.x ? BorderEdge{ p, q } : BorderEdge{ q, p });
+      this->Widest = std::max(this->Widest, std::fabs(q.x - p.x));
     });
+  std::sort(this->BorderEdges.begin(), this->BorderEdges.end(), isWestOf);
 }
 
 /// No correct mesh has a vertex farther away. Along one axis, let M be the largest coordinate of
@@ -91,15 +96,20 @@ bool SplitChains::crossesBorder(Position from, Position to, const SnappedLine& l
 {
   const auto [west, east] = std::minmax({ from.x, to.x });
   const auto [south, north] = std::minmax({ from.y, to.y });
-  return std::any_of(this->BorderEdges.begin(), this->BorderEdges.end(),
-    [&, west = west, east = east, south = south, north = north](const auto& edge)
+  const Position first{ west - this->Widest, 0 }; // no edge that begins before it comes so far
+  auto edge = std::lower_bound(
+    this->BorderEdges.begin(), this->BorderEdges.end(), BorderEdge{ first, first }, isWestOf);
+  for (; edge != this->BorderEdges.end() && edge->front().x <= east; ++edge)
+  {
+    const auto& [p, q] = *edge;
+    if (q.x >= west && std::max(p.y, q.y) >= south && std::min(p.y, q.y) <= north &&
+      turn(from, to, p) * turn(from, to, q) < 0 && turn(p, q, from) * turn(p, q, to) < 0 &&
+      !line.reaches(p) && !line.reaches(q))
     {
-      const auto& [p, q] = edge;
-      return std::max(p.x, q.x) >= west && std::min(p.x, q.x) <= east &&
-        std::max(p.y, q.y) >= south && std::min(p.y, q.y) <= north &&
-        turn(from, to, p) * turn(from, to, q) < 0 && turn(p, q, from) * turn(p, q, to) < 0 &&
-        !line.reaches(p) && !line.reaches(q);
-    });
+      return true;
+    }
+  }
+  return false;
 }
 
 } // namespace check

@@ -36,12 +36,19 @@ public:
   static Position reach(Position a, Position b);
 
 private:
+  using BorderEdge = std::array<Position, 2>; ///< the western end first
+
+  static bool isWestOf(const BorderEdge& a, const BorderEdge& b)
+  {
+    return a.front().x < b.front().x;
+  }
   bool crossesMesh(const Route& route) const;
   bool crossesBorder(Position from, Position to, const SnappedLine& line) const;
 
   const MeshEdges& Mesh;
   RouteSetting Setting;
-  std::vector<std::array<Position, 2>> BorderEdges;
+  std::vector<BorderEdge> BorderEdges; ///< sorted by their western ends
+  double Widest = 0;                   ///< the largest difference of the ends' x
 };
 
 } // namespace check

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Check/QualityChecker.h"
+#include "Constraints/Insertion/TriangulateConstrained.h"
+#include "Constraints/ResolveCrossings.h"
 
 #include <gtest/gtest.h>
 
@@ -95,6 +97,39 @@ RefinedMesh splitSegment(std::uint64_t seed)
       mesh.Triangles.insert(mesh.Triangles.end(), { 0, std::int64_t(i), std::int64_t(i) + 1 });
     }
   }
+  return mesh;
+}
+
+/// Points on a lattice or anywhere, and segments between any two: they cross, overlap, and pass
+/// points.
+RefinedMesh crossingSegments(std::uint64_t seed)
+{
+  std::mt19937_64 random(seed);
+  const bool onLattice = seed % 2 == 0;
+  const double origin = seed % 3 == 0 ? 0.0 : 1e5 / 3;
+  std::uniform_real_distribution<double> anywhere(0, 8);
+  RefinedMesh mesh;
+  for (int i = 0; i < 2 * 40; ++i)
+  {
+    const double part = anywhere(random);
+    mesh.InputXY.push_back(origin + (onLattice ? std::floor(part) / 3 : part));
+  }
+  std::vector<tipp::Constraint> constraints;
+  for (int i = 0; i < 12; ++i)
+  {
+    mesh.Segments.push_back({ std::int64_t(random() % 40), std::int64_t(random() % 40) });
+    const auto& [a, b] = mesh.Segments.back();
+    constraints.push_back({ tipp::PointId(a), tipp::PointId(b) });
+  }
+  const tipp::ConstrainedTriangulation made =
+    tipp::triangulateConstrained(tipp::PointsView(mesh.InputXY.data(), 40, 2), constraints,
+      tipp::CrossingRule::Split, tipp::TriangulationOptions());
+  mesh.XY = mesh.InputXY;
+  for (const tipp::CrossingPoint& crossing : made.Constraints.Crossings)
+  {
+    mesh.XY.insert(mesh.XY.end(), { crossing.Position.x, crossing.Position.y });
+  }
+  mesh.Triangles.assign(made.Mesh.Ids32.begin(), made.Mesh.Ids32.end());
   return mesh;
 }
 
@@ -284,6 +319,23 @@ TEST(QualityChecker, RefusesTrianglesOfNoPoint)
   mesh.Triangles[0] = 9;
   mesh.Triangles[4] = -1;
   EXPECT_EQ(2, checkQuality(mesh).Mesh.BadIds);
+}
+
+TEST(QualityChecker, RefusesTrianglesOfPointsThatAreNotFinite)
+{
+  RefinedMesh mesh = grid();
+  mesh.XY[16] = std::nan("");
+  EXPECT_EQ(8, checkQuality(mesh).Mesh.BadIds);
+}
+
+/// A constrained triangulation is a refined mesh that has no bounds.
+TEST(QualityChecker, AcceptsConstrainedTriangulations)
+{
+  for (std::uint64_t seed = 0; seed < 300; ++seed)
+  {
+    SCOPED_TRACE(seed);
+    expectCorrect(crossingSegments(seed));
+  }
 }
 
 TEST(QualityChecker, WithoutInputLeavesTheBorderUnchecked)
