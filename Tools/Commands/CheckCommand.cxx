@@ -515,8 +515,8 @@ void addQualityOptions(
   CLI::App& command, QualityArguments& quality, const std::vector<CLI::Option*>& others)
 {
   CLI::Option* const angle = command.add_option("--quality", quality.MinAngle,
-    "Check a refined mesh, whose angles must be at least as large: in degrees, 0 to 60. Only the "
-    "mesh is required, and POINTS come before it");
+    "Check a refined mesh, which may have any points besides those of the input: its angles must "
+    "be at least as large, in degrees from 0 to 60");
   angle->check(checkAngle);
   for (CLI::Option* const other : others)
   {
@@ -536,7 +536,9 @@ void addQualityOptions(
 
 void addOptions(CLI::App& command, CheckArguments& arguments)
 {
-  command.add_option("points", arguments.Points, "The points, in any format of 'tipp delaunay'")
+  command
+    .add_option("points", arguments.Points,
+      "The points, in any format of 'tipp delaunay'; with --quality they may be left out")
     ->required();
   command.add_option("mesh", arguments.Mesh, meshFormats);
   addPointOptions(command, arguments.Columns);
@@ -549,7 +551,7 @@ void addOptions(CLI::App& command, CheckArguments& arguments)
       "The mesh need not fill the convex hull: do not check its boundary and Euler's formula");
   command
     .add_option("--constraints", arguments.Constraints,
-      "The file of constraints that 'tipp delaunay' used; the mesh may have more points after the "
+      "The file of constraints that the mesh was made with, which may have more points after the "
       "given ones. May be given several times")
     ->allow_extra_args(false);
   addCurveOption(command);
