@@ -6,16 +6,16 @@
 #include "Files/IOError.h"
 #include "Meshes/MeshFiles.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <stdexcept>
+#include <system_error>
 #include <utility>
 
 namespace tipp

@@ -25,7 +25,7 @@ struct QualityArguments
 };
 
 /// Checks a refined mesh, prints the result and returns the exit code. Throws IOError if a file
-/// cannot be read, and CLI::ValidationError if MinAngle is no angle.
+/// cannot be read, and std::invalid_argument if MinAngle is no angle from 0 to 60 degrees.
 int checkQualityOfFiles(const QualityArguments& arguments);
 
 /// Reads files of constraints into one table. `wrap`: PointOptions::Wrap. Throws IOError, also if
