@@ -1,0 +1,543 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Refinement/Refine.h"
+
+#include "Refinement/BlockRefiner.h"
+#include "Refinement/RefinementBlocks.h"
+#include "Refinement/RefinementMesh.h"
+#include "Refinement/RefinementRules.h"
+#include "Refinement/StartMesh.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+namespace tipp
+{
+namespace
+{
+
+using Index = RefinementMesh::Index;
+using Triangle = RefinementMesh::Triangle;
+using Element = RefinementQueue::Element;
+
+constexpr double Degree = 3.14159265358979323846 / 180;
+
+Index regionOf(const Triangle& triangle)
+{
+  return Index(triangle.State >> RefinementMesh::RegionShift);
+}
+
+Point2 centroid(const std::array<Point2, 3>& p)
+{
+  return { (p[0].x + p[1].x + p[2].x) / 3, (p[0].y + p[1].y + p[2].y) / 3 };
+}
+
+template <typename Items>
+void append(const Items& from, Items& to)
+{
+  to.insert(to.end(), from.begin(), from.end());
+}
+
+void requireValid(const RefinementOptions& options)
+{
+  const auto require = [](bool isValid, const std::string& problem)
+  {
+    if (!isValid)
+    {
+      throw std::invalid_argument(problem);
+    }
+  };
+  require(options.MinimumAngle >= 0 && options.MinimumAngle <= RefinementOptions::LargestAngle,
+    fmt::format("The smallest angle must be between 0 and {} degrees; it is {}.",
+      RefinementOptions::LargestAngle, options.MinimumAngle));
+  require(options.LargestArea > 0,
+    fmt::format("The largest area must be above 0; it is {}.", options.LargestArea));
+  require(options.ShortestEdge >= 0 && std::isfinite(options.ShortestEdge),
+    fmt::format("The shortest edge must be at least 0; it is {}.", options.ShortestEdge));
+  for (const RefinementRegion& region : options.Regions)
+  {
+    require(region.LargestArea > 0,
+      fmt::format("The largest area of a region must be above 0; it is {}.", region.LargestArea));
+  }
+}
+
+/// A refinement in levels, each of which halves the sizes, and of which each is made in rounds of
+/// blocks in parallel.
+class Refinement
+{
+public:
+  Refinement(
+    PointsView points, const ConstrainedTriangulation& start, const RefinementOptions& options)
+    : Options(options)
+    , Points(points)
+    , Threads(threadCount(options.Threads))
+  {
+    requireValid(options);
+    startMesh(points, start, options, this->Mesh);
+    this->Given = std::int64_t(this->Mesh.PointEnd);
+    this->setRules();
+  }
+
+  /// Returns false if Progress stopped it.
+  bool run();
+  RefinedMesh result();
+
+private:
+  void setRules();
+  double expectedTriangles() const;
+  bool runLevel();
+  bool runRound(const std::vector<RefinementBlock>& blocks, std::vector<Element>& elements);
+  template <typename Item, typename Visit>
+  void forTriangles(std::vector<Item>& chunks, const Visit& visit) const;
+  std::vector<Element> collect() const;
+  bool isFull() const
+  {
+    return this->Options.MostPoints > 0 && this->inserted() >= this->Options.MostPoints;
+  }
+  std::int64_t inserted() const
+  {
+    std::int64_t sum = 0;
+    for (const auto& refiner : this->Refiners)
+    {
+      sum += refiner ? refiner->counts().Inserted : 0;
+    }
+    return sum;
+  }
+  double fractionDone() const
+  {
+    const double end = this->Expected / 2 + double(this->Given);
+    return std::min(1.0, double(this->Mesh.PointEnd) / end);
+  }
+  std::array<Point2, 3> pointsOf(const Triangle& triangle) const
+  {
+    return { this->Mesh.Points[std::size_t(triangle.Corner[0])],
+      this->Mesh.Points[std::size_t(triangle.Corner[1])],
+      this->Mesh.Points[std::size_t(triangle.Corner[2])] };
+  }
+  Buffer<Index> addPoints(RefinedMesh& result) const;
+  void addTriangles(const Buffer<Index>& ids, RefinedMesh& result) const;
+  void addSegments(
+    const Triangle& triangle, const Buffer<Index>& ids, std::vector<IdSegment>& segments) const;
+  void judgeResult(
+    std::int64_t i, const Triangle& triangle, std::vector<TriangleOutside>& outside) const;
+  TriangleOutside::Reason reasonFor(const Triangle& triangle, bool isThin, int leastCorner) const;
+
+  const RefinementOptions& Options;
+  const PointsView Points;
+  const int Threads;
+  RefinementMesh Mesh;
+  RefinementRules Rules;
+  std::int64_t Given = 0;      ///< vertices before refinement
+  double LeastSineSquared = 0; ///< of the bound, a little above it: rounding must not hide an angle
+  double Expected = 0;         ///< a rough number of triangles at the end
+  bool StoppedEarly = false;   ///< MostPoints was reached
+  std::vector<std::unique_ptr<BlockRefiner>> Refiners; ///< by thread
+  RefinementStatistics Statistics;
+};
+
+void Refinement::setRules()
+{
+  this->Rules.MinimumAngle = this->Options.MinimumAngle;
+  this->Rules.LargestArea = this->Options.LargestArea;
+  this->Rules.AreaAt = this->Options.AreaAt;
+  this->Rules.KeepsBorder = this->Options.KeepsBorder || this->Options.KeepsSegments;
+  this->Rules.KeepsSegments = this->Options.KeepsSegments;
+  this->Rules.LeastArea =
+    this->Options.AreaAt ? this->Options.LeastArea : std::numeric_limits<double>::infinity();
+  this->Rules.LeastArea = std::min(this->Rules.LeastArea, this->Options.LargestArea);
+  if (!this->Options.Regions.empty())
+  {
+    this->Rules.RegionAreas.push_back(std::numeric_limits<double>::infinity()); // in no region
+    for (const RefinementRegion& region : this->Options.Regions)
+    {
+      this->Rules.RegionAreas.push_back(region.LargestArea);
+      this->Rules.LeastArea = std::min(this->Rules.LeastArea, region.LargestArea);
+    }
+  }
+  Box2 box = Box2::empty();
+  for (std::int64_t i = 0; i < this->Mesh.PointEnd; ++i)
+  {
+    if (this->Mesh.Origins[std::size_t(i)] != RefinementMesh::NoVertex)
+    {
+      box.extend(this->Mesh.Points[std::size_t(i)]);
+    }
+  }
+  // Rounding moves a point by 2^-53 of the largest coordinate, which must not matter for an edge.
+  const double side = std::max(box.Max.x - box.Min.x, box.Max.y - box.Min.y);
+  this->Rules.ShortestEdge = this->Options.ShortestEdge > 0
+    ? this->Options.ShortestEdge
+    : std::max(std::ldexp(side, -36), std::ldexp(box.largest(), -44));
+  this->Rules.prepare(1);
+  const double sine = std::sin(this->Options.MinimumAngle * Degree);
+  this->LeastSineSquared = sine * sine * (1 + 1e-12);
+}
+
+/// A rough number of triangles that the limits of area make necessary.
+double Refinement::expectedTriangles() const
+{
+  double sum = 0;
+  for (std::int64_t t = 0; t < this->Mesh.TriangleEnd; ++t)
+  {
+    const Triangle& triangle = this->Mesh.Triangles[std::size_t(t)];
+    if ((triangle.State & RefinementMesh::IsLive) == 0)
+    {
+      continue;
+    }
+    const std::array<Point2, 3> p = this->pointsOf(triangle);
+    const double limit = this->Rules.areaLimit(centroid(p), regionOf(triangle));
+    constexpr double fill = 0.6; // the mean area of a refined mesh's triangles, of the limit
+    sum += std::max(1.0, cross(p[1] - p[0], p[2] - p[0]) / 2 / (fill * limit));
+  }
+  return sum;
+}
+
+/// Calls visit(chunk, slot, triangle) for all triangles in the order of the groups, where threads
+/// take chunks of groups. `chunks`: one item for each chunk.
+template <typename Item, typename Visit>
+void Refinement::forTriangles(std::vector<Item>& chunks, const Visit& visit) const
+{
+  const std::vector<Index>& groups = this->Mesh.TriangleGroups;
+  constexpr std::int64_t chunk = 256;
+  const auto count = std::int64_t(groups.size());
+  chunks.resize(std::size_t((count + chunk - 1) / chunk));
+  forChunks(count, chunk, this->Threads, {},
+    [&](std::int64_t begin, std::int64_t end, int)
+    {
+      Item& item = chunks[std::size_t(begin / chunk)];
+      for (std::int64_t group = begin; group < end; ++group)
+      {
+        const Index first = groups[std::size_t(group)];
+        for (Index t = first; t < first + RefinementMesh::TrianglesInGroup; ++t)
+        {
+          const Triangle& triangle = this->Mesh.Triangles[std::size_t(t)];
+          if ((triangle.State & RefinementMesh::IsLive) != 0)
+          {
+            visit(item, t, triangle);
+          }
+        }
+      }
+    });
+}
+
+/// The triangles that need refinement.
+std::vector<Element> Refinement::collect() const
+{
+  std::vector<std::vector<Element>> chunks;
+  this->forTriangles(chunks,
+    [&](std::vector<Element>& list, Index t, const Triangle& triangle)
+    {
+      if (this->Rules.judge(this->Mesh, triangle).Why != RefinementRules::Need::None)
+      {
+        list.push_back({ t, triangle.Version });
+      }
+    });
+  std::vector<Element> elements;
+  for (const std::vector<Element>& list : chunks)
+  {
+    append(list, elements);
+  }
+  return elements;
+}
+
+bool Refinement::run()
+{
+  this->Refiners.resize(std::size_t(this->Threads));
+  this->Expected = this->expectedTriangles();
+  // Coarse levels first: they cost a thousandth more points, and later ones then work locally.
+  constexpr double coarsest = 8192; // triangles
+  double coarser = 1;
+  for (double expected = this->Expected;
+       expected > std::max(coarsest, 4 * double(this->Mesh.TriangleEnd)); expected /= 4)
+  {
+    coarser *= 4;
+  }
+  for (; coarser >= 1; coarser /= 4)
+  {
+    this->Rules.prepare(coarser);
+    ++this->Statistics.Levels;
+    if (!this->runLevel())
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Refines until no element is left.
+bool Refinement::runLevel()
+{
+  std::vector<Element> elements = this->collect();
+  // MostPoints is exact, and the same for any number of threads, in one block only.
+  std::size_t most = this->Options.MostPoints > 0 ? 1 : elements.size() + 1;
+  for (bool isFirst = true; !elements.empty() && !this->StoppedEarly; isFirst = false)
+  {
+    const std::vector<RefinementBlock> blocks = makeBlocks(this->Mesh, elements, most, !isFirst);
+    ++this->Statistics.Rounds;
+    this->Statistics.Blocks += std::int64_t(blocks.size());
+    const std::size_t before = elements.size();
+    if (!this->runRound(blocks, elements))
+    {
+      return false;
+    }
+    if (2 * elements.size() > before) // the triangles are too large for such blocks
+    {
+      most = std::max<std::size_t>(1, std::min(most, blocks.size()) / 4);
+    }
+  }
+  return true;
+}
+
+/// Refines the blocks; `elements` becomes those that wait for the next round.
+bool Refinement::runRound(
+  const std::vector<RefinementBlock>& blocks, std::vector<Element>& elements)
+{
+  std::vector<BlockRefiner::Result> results(blocks.size());
+  std::atomic<bool> isStopped{ false };
+  const auto work = [&](std::int64_t block, std::int64_t, int thread)
+  {
+    auto& refiner = this->Refiners[std::size_t(thread)];
+    if (!refiner)
+    {
+      refiner = std::make_unique<BlockRefiner>(this->Mesh, this->Rules);
+    }
+    const auto proceed = [&]
+    {
+      if (thread == 0 && this->Options.Progress && !this->Options.Progress(this->fractionDone()))
+      {
+        isStopped = true;
+      }
+      return !isStopped;
+    };
+    const RefinementBlock& at = blocks[std::size_t(block)];
+    results[std::size_t(block)] = refiner->run(at.Bounds, elements.data() + at.Begin,
+      elements.data() + at.End, this->Options.MostPoints, proceed);
+  };
+  forChunks(std::int64_t(blocks.size()), 1, this->Threads, {}, work);
+  if (isStopped)
+  {
+    return false;
+  }
+  this->StoppedEarly = this->isFull();
+  elements.clear();
+  for (const BlockRefiner::Result& result : results)
+  {
+    append(result.Waiting, elements);
+    append(result.TriangleGroups, this->Mesh.TriangleGroups);
+    append(result.PointGroups, this->Mesh.PointGroups);
+  }
+  return true;
+}
+
+/// Sets the added points. Returns the id of each vertex.
+Buffer<Index> Refinement::addPoints(RefinedMesh& result) const
+{
+  const RefinementMesh& mesh = this->Mesh;
+  const auto given = std::int64_t(this->Points.size());
+  if (given + mesh.PointEnd > std::numeric_limits<Index>::max())
+  {
+    throw std::length_error("The mesh would have too many points.");
+  }
+  Buffer<Index> ids(std::size_t(mesh.PointEnd));
+  Index end = Index(given);
+  const auto forVertices = [&](const auto& visit)
+  {
+    for (const Index first : mesh.PointGroups)
+    {
+      for (Index vertex = first; vertex < first + RefinementMesh::PointsInGroup; ++vertex)
+      {
+        visit(std::size_t(vertex), mesh.Origins[std::size_t(vertex)]);
+      }
+    }
+  };
+  forVertices(
+    [&](std::size_t vertex, Index origin)
+    {
+      if (origin != RefinementMesh::NoVertex)
+      {
+        ids[vertex] = RefinementMesh::isInput(origin) ? RefinementMesh::inputId(origin) : end++;
+      }
+    });
+  const auto added = std::size_t(end) - std::size_t(given);
+  result.AddedXY = Buffer<double>(2 * added);
+  result.AddedOn.resize(added);
+  std::size_t i = 0;
+  forVertices(
+    [&](std::size_t vertex, Index origin)
+    {
+      if (origin != RefinementMesh::NoVertex && !RefinementMesh::isInput(origin))
+      {
+        result.AddedXY[2 * i] = mesh.Points[vertex].x;
+        result.AddedXY[2 * i + 1] = mesh.Points[vertex].y;
+        result.AddedOn[i] = RefinementMesh::isOnSegment(origin)
+          ? mesh.Segments[std::size_t(RefinementMesh::segmentNumber(origin))].Constraint
+          : -1;
+        ++i;
+      }
+    });
+  return ids;
+}
+
+/// The smallest angle of a triangle, its sine, and the corner opposite to the shortest edge.
+struct LeastAngle
+{
+  explicit LeastAngle(const std::array<Point2, 3>& p)
+  {
+    std::array<double, 3> squares;
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      const Point2 edge = p[(i + 2) % 3] - p[(i + 1) % 3];
+      squares[i] = edge.x * edge.x + edge.y * edge.y;
+    }
+    this->Corner = int(std::min_element(squares.begin(), squares.end()) - squares.begin());
+    this->Area = cross(p[1] - p[0], p[2] - p[0]) / 2;
+    const auto s = std::size_t(this->Corner);
+    const double twice = 2 * this->Area;
+    this->SineSquared = twice / squares[(s + 1) % 3] * (twice / squares[(s + 2) % 3]);
+  }
+  double degrees() const { return std::asin(std::min(1.0, std::sqrt(this->SineSquared))) / Degree; }
+
+  int Corner;
+  double Area;
+  double SineSquared;
+};
+
+/// What a chunk of triangles contributes to the result.
+struct ResultChunk
+{
+  std::int64_t Next = 0; ///< index of the next triangle
+  std::vector<IdSegment> Segments;
+  std::vector<TriangleOutside> Outside;
+};
+
+/// Sets the triangles, the segments, and the triangles that are not as asked.
+void Refinement::addTriangles(const Buffer<Index>& ids, RefinedMesh& result) const
+{
+  std::vector<ResultChunk> chunks;
+  this->forTriangles(chunks, [](ResultChunk& chunk, Index, const Triangle&) { ++chunk.Next; });
+  std::int64_t count = 0;
+  for (ResultChunk& chunk : chunks)
+  {
+    count += std::exchange(chunk.Next, count);
+  }
+  result.Triangles = Buffer<std::int32_t>(3 * std::size_t(count));
+  result.RegionOf.resize(this->Options.Regions.empty() ? 0 : std::size_t(count));
+  this->forTriangles(chunks,
+    [&](ResultChunk& chunk, Index, const Triangle& triangle)
+    {
+      const std::int64_t i = chunk.Next++;
+      for (std::size_t c = 0; c < 3; ++c)
+      {
+        result.Triangles[3 * std::size_t(i) + c] = ids[std::size_t(triangle.Corner[c])];
+      }
+      if (!result.RegionOf.empty())
+      {
+        result.RegionOf[std::size_t(i)] = regionOf(triangle) - 1;
+      }
+      if (((triangle.Across[0] | triangle.Across[1] | triangle.Across[2]) &
+            RefinementMesh::IsSegment) != 0)
+      {
+        this->addSegments(triangle, ids, chunk.Segments);
+      }
+      this->judgeResult(i, triangle, chunk.Outside);
+    });
+  for (const ResultChunk& chunk : chunks)
+  {
+    append(chunk.Segments, result.Segments);
+    append(chunk.Outside, result.Outside);
+  }
+  std::stable_sort(result.Segments.begin(), result.Segments.end(),
+    [](const IdSegment& a, const IdSegment& b) { return a.Constraint < b.Constraint; });
+}
+
+/// Appends the subsegments of a triangle, one that two triangles share for one of them.
+void Refinement::addSegments(
+  const Triangle& triangle, const Buffer<Index>& ids, std::vector<IdSegment>& segments) const
+{
+  for (int c = 0; c < 3; ++c)
+  {
+    const RefinementMesh::Link link = triangle.Across[std::size_t(c)];
+    const Index a = triangle.Corner[std::size_t(RefinementMesh::next(c))];
+    const Index b = triangle.Corner[std::size_t(RefinementMesh::previous(c))];
+    const Index idA = ids[std::size_t(a)];
+    const Index idB = ids[std::size_t(b)];
+    if (RefinementMesh::isSegment(link) && (link == RefinementMesh::Outside || idA < idB))
+    {
+      const Index segment = this->Mesh.segmentOf(a, b);
+      segments.push_back({ idA, idB, this->Mesh.Segments[std::size_t(segment)].Constraint });
+    }
+  }
+}
+
+/// Appends triangle i of the result to the list if it is not as asked.
+void Refinement::judgeResult(
+  std::int64_t i, const Triangle& triangle, std::vector<TriangleOutside>& outside) const
+{
+  const std::array<Point2, 3> p = this->pointsOf(triangle);
+  const LeastAngle least(p);
+  const bool isThin = least.SineSquared < this->LeastSineSquared;
+  if (isThin ||
+    (least.Area > this->Rules.LeastArea &&
+      least.Area > this->Rules.areaLimit(centroid(p), regionOf(triangle))))
+  {
+    outside.push_back(
+      { i, least.degrees(), least.Area, this->reasonFor(triangle, isThin, least.Corner) });
+  }
+}
+
+TriangleOutside::Reason Refinement::reasonFor(
+  const Triangle& triangle, bool isThin, int leastCorner) const
+{
+  using Reason = TriangleOutside::Reason;
+  if (isThin && this->Rules.isForced(this->Mesh, triangle, leastCorner))
+  {
+    return Reason::InputAngle;
+  }
+  if (this->StoppedEarly && (triangle.State & RefinementMesh::IsGivenUp) == 0)
+  {
+    return Reason::MostPoints;
+  }
+  return this->Options.KeepsBorder || this->Options.KeepsSegments ? Reason::KeptSegments
+                                                                  : Reason::ShortestEdge;
+}
+
+RefinedMesh Refinement::result()
+{
+  RefinedMesh result;
+  this->addTriangles(this->addPoints(result), result);
+  for (const auto& refiner : this->Refiners)
+  {
+    if (refiner)
+    {
+      this->Statistics.Splits += refiner->counts().Splits;
+      this->Statistics.Inserted += refiner->counts().Inserted;
+      this->Statistics.GivenUp += refiner->counts().GivenUp;
+    }
+  }
+  result.Statistics = this->Statistics;
+  return result;
+}
+
+} // namespace
+
+RefinedMesh refine(PointsView points, const ConstrainedTriangulation& triangulation,
+  const RefinementOptions& options)
+{
+  Refinement refinement(points, triangulation, options);
+  if (!refinement.run())
+  {
+    RefinedMesh aborted;
+    aborted.Aborted = true;
+    return aborted;
+  }
+  return refinement.result();
+}
+
+} // namespace tipp

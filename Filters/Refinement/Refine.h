@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippRefine_h
+#define tippRefine_h
+
+#include "Arrays/Buffer.h"
+#include "Constraints/Insertion/TriangulateConstrained.h"
+#include "Parallel/ParallelFor.h"
+#include "Predicates/Geometry.h"
+#include "Triangulation/PointsView.h"
+#include "vtkTIPPFiltersModule.h"
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace tipp
+{
+
+/// A part of the domain, enclosed by segments: all triangles that can be reached from a point
+/// without crossing one.
+struct RefinementRegion
+{
+  Point2 Seed;
+  double LargestArea = std::numeric_limits<double>::infinity();
+};
+
+struct RefinementOptions
+{
+  static constexpr double LargestAngle = 34; ///< above, refinement rarely ends
+
+  /// No angle of the mesh is below this, in degrees, 0 to LargestAngle, except in the triangles of
+  /// RefinedMesh::Outside. 20.7 is proved to end, up to 33 has been tried. 0: no bound.
+  double MinimumAngle = 30;
+  /// No triangle is larger, in the square of the points' unit.
+  double LargestArea = std::numeric_limits<double>::infinity();
+  /// A triangle's further limit: the area at its centroid. It is called from several threads, and
+  /// must depend on the position only. Empty: none.
+  std::function<double(Point2)> AreaAt;
+  double LeastArea = 0; ///< a lower bound of AreaAt, which spares calls; 0: unknown
+  std::vector<RefinementRegion> Regions;
+  /// No edge is made that is shorter. What cannot be refined without one is left as it is. 0: 2^-36
+  /// of the domain's longest side or 2^-44 of the largest coordinate, the larger one.
+  double ShortestEdge = 0;
+  bool KeepsBorder = false;   ///< no point is added on the border
+  bool KeepsSegments = false; ///< no point is added on any segment
+  /// The domain is what segments enclose: triangles that can be reached from outside the convex
+  /// hull without crossing one are removed first. Otherwise it is all triangles that are given.
+  bool IsEnclosed = false;
+  std::int64_t MostPoints = 0; ///< at most so many points are added; 0: no limit
+  int Threads = 0;             ///< 0: as usual
+  Report Progress;
+};
+
+struct RefinementStatistics
+{
+  std::int64_t Levels = 0;
+  std::int64_t Rounds = 0;   ///< of blocks in parallel
+  std::int64_t Blocks = 0;   ///< in all rounds
+  std::int64_t Splits = 0;   ///< points added on segments
+  std::int64_t Inserted = 0; ///< points added in all
+  std::int64_t GivenUp = 0;  ///< triangles that could not be refined, of which some vanished later
+};
+
+/// A triangle that has an angle below the bound, or an area above its limit.
+struct TriangleOutside
+{
+  enum class Reason
+  {
+    InputAngle,   ///< segments of the input meet at an angle below 60 degrees
+    ShortestEdge, ///< refinement would make edges shorter than ShortestEdge, or than rounding
+                  ///< allows
+    KeptSegments, ///< KeepsBorder or KeepsSegments forbids the points
+    MostPoints    ///< MostPoints was reached
+  };
+  std::int64_t Triangle; ///< index
+  double Angle;          ///< its smallest, in degrees
+  double Area;
+  Reason Why;
+};
+
+/// A mesh made by refinement.
+struct RefinedMesh
+{
+  /// x and y of the added points. Their ids follow those of the points given.
+  Buffer<double> AddedXY;
+  /// By added point: the constraint that it lies on, except for rounding; -1: in the interior, or
+  /// on an edge of the convex hull.
+  std::vector<std::int64_t> AddedOn;
+  /// Three point ids each, counter-clockwise.
+  Buffer<std::int32_t> Triangles;
+  /// By triangle: the index of its region among RefinementOptions::Regions, or -1. Empty if no
+  /// regions are given.
+  std::vector<std::int32_t> RegionOf;
+  /// The subsegments, by constraint; those of edges of the convex hull have the constraint -1.
+  std::vector<IdSegment> Segments;
+  std::vector<TriangleOutside> Outside; ///< those not as asked, ascending
+  RefinementStatistics Statistics;
+  bool Aborted = false; ///< Progress stopped the run; there are no triangles then
+
+  std::size_t triangleCount() const { return this->Triangles.size() / 3; }
+};
+
+/// Refines a constrained Delaunay triangulation until its triangles have no angle below a bound and
+/// no area above a limit, by inserting points: a mesh for finite elements, graded by its input. The
+/// result is a constrained Delaunay triangulation in which every segment is a chain of edges.
+///
+/// `points` are those of the triangulation, with its crossings. Points of no triangle, such as
+/// those in holes, stay unused. The result is the same for any number of threads. Throws
+/// std::invalid_argument for options out of their range or a region's point in no triangle, and
+/// std::length_error if the mesh is too large for the memory or for 2^28 triangles.
+///
+/// Delaunay refinement after Ruppert (1995) and Chew (1993) with the diametral lenses and
+/// concentric shells of Shewchuk (2002) and Üngör's off-centers (2004).
+VTKTIPPFILTERS_EXPORT RefinedMesh refine(PointsView points,
+  const ConstrainedTriangulation& triangulation, const RefinementOptions& options);
+
+} // namespace tipp
+
+#endif

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Refinement/RefinementBlocks.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <utility>
+
+namespace tipp
+{
+namespace
+{
+
+struct PlacedElement
+{
+  Point2 At;
+  RefinementQueue::Element What;
+};
+
+class BlockTree
+{
+public:
+  BlockTree(std::vector<PlacedElement>& elements, std::size_t size, bool avoidsBorders)
+    : Elements(elements)
+    , Size(size)
+    , AvoidsBorders(avoidsBorders)
+  {
+  }
+
+  void cut(const RefinementBlock& block)
+  {
+    if (block.End - block.Begin <= this->Size)
+    {
+      this->Blocks.push_back(block);
+      return;
+    }
+    const auto [axis, at] = this->AvoidsBorders ? this->emptiest(block) : this->median(block);
+    const auto first = this->Elements.begin();
+    const auto middle =
+      std::partition(first + std::ptrdiff_t(block.Begin), first + std::ptrdiff_t(block.End),
+        [axis = axis, at = at](const PlacedElement& element) { return element.At[axis] < at; });
+    const std::size_t cut = std::size_t(middle - first);
+    if (cut == block.Begin || cut == block.End) // the elements are too close together
+    {
+      this->Blocks.push_back(block);
+      return;
+    }
+    const auto [below, above] = block.Bounds.cut(axis, at);
+    this->cut({ below, block.Begin, cut });
+    this->cut({ above, cut, block.End });
+  }
+
+  std::vector<RefinementBlock> Blocks;
+
+private:
+  using Cut = std::pair<std::size_t, double>; ///< an axis and a coordinate
+
+  static std::size_t longerAxis(const Box2& box) { return box.width(0) >= box.width(1) ? 0 : 1; }
+
+  /// Across the longer side, through the median of a sample.
+  Cut median(const RefinementBlock& block)
+  {
+    constexpr std::size_t sample = 1023;
+    const std::size_t step = std::max<std::size_t>(1, (block.End - block.Begin) / sample);
+    Box2 box = Box2::empty();
+    this->Sample.clear();
+    for (std::size_t i = block.Begin; i < block.End; i += step)
+    {
+      box.extend(this->Elements[i].At);
+      this->Sample.push_back(this->Elements[i].At);
+    }
+    const std::size_t axis = longerAxis(box);
+    const auto middle = this->Sample.begin() + std::ptrdiff_t(this->Sample.size() / 2);
+    std::nth_element(this->Sample.begin(), middle, this->Sample.end(),
+      [axis](Point2 a, Point2 b) { return a[axis] < b[axis]; });
+    return { axis, (*middle)[axis] };
+  }
+
+  /// Across the longer side, where fewest elements are between its first and last third of them.
+  Cut emptiest(const RefinementBlock& block) const
+  {
+    Box2 box = Box2::empty();
+    for (std::size_t i = block.Begin; i < block.End; ++i)
+    {
+      box.extend(this->Elements[i].At);
+    }
+    const std::size_t axis = longerAxis(box);
+    constexpr std::size_t bins = 512;
+    std::array<std::size_t, bins + 1> counts{};
+    const double scale = double(bins) / box.width(axis);
+    for (std::size_t i = block.Begin; i < block.End; ++i)
+    {
+      // The last bin is for the upper end alone; also if all have the same coordinate.
+      const double bin = (this->Elements[i].At[axis] - box.Min[axis]) * scale;
+      ++counts[bin < double(bins) ? std::size_t(bin) : bins];
+    }
+    const std::size_t third = (block.End - block.Begin) / 3;
+    std::size_t below = 0;
+    std::size_t best = bins;
+    for (std::size_t bin = 0; bin < bins; below += counts[bin++])
+    {
+      if (below >= third && below + counts[bin] <= 2 * third &&
+        (best == bins || counts[bin] < counts[best]))
+      {
+        best = bin;
+      }
+    }
+    if (best == bins) // a bin has more than a third
+    {
+      best = std::size_t(std::max_element(counts.begin(), counts.end()) - counts.begin());
+    }
+    return { axis, box.Min[axis] + (double(best) + 0.5) / scale };
+  }
+
+  std::vector<PlacedElement>& Elements;
+  const std::size_t Size; ///< largest number of elements of a block
+  const bool AvoidsBorders;
+  std::vector<Point2> Sample;
+};
+
+} // namespace
+
+std::vector<RefinementBlock> makeBlocks(const RefinementMesh& mesh,
+  std::vector<RefinementQueue::Element>& elements, std::size_t most, bool avoidsBorders)
+{
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  constexpr std::size_t smallest = 2048; // so that a block fits into a processor's own cache
+  const Box2 plane{ { -infinity, -infinity }, { infinity, infinity } };
+  const std::size_t size = std::max(smallest, elements.size() / most + 1);
+  if (elements.size() <= 2 * size || most == 1)
+  {
+    return { { plane, 0, elements.size() } };
+  }
+  std::vector<PlacedElement> placed(elements.size());
+  for (std::size_t i = 0; i < placed.size(); ++i)
+  {
+    const RefinementMesh::Index corner =
+      mesh.Triangles[std::size_t(elements[i].Triangle)].Corner[0];
+    placed[i] = { mesh.Points[std::size_t(corner)], elements[i] };
+  }
+  BlockTree tree(placed, size, avoidsBorders);
+  tree.cut({ plane, 0, placed.size() });
+  for (std::size_t i = 0; i < placed.size(); ++i)
+  {
+    elements[i] = placed[i].What;
+  }
+  return std::move(tree.Blocks);
+}
+
+} // namespace tipp

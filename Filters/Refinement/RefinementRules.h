@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippRefinementRules_h
+#define tippRefinementRules_h
+
+#include "Predicates/Geometry.h"
+#include "Predicates/Vectors.h"
+#include "Refinement/RefinementMesh.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <vector>
+
+namespace tipp
+{
+
+/// What a triangle must be like, and which of the triangles that are not goes first.
+class RefinementRules
+{
+public:
+  using Index = RefinementMesh::Index;
+
+  /// Why a triangle must go.
+  enum class Need
+  {
+    None,
+    Segment, ///< its vertex encroaches upon a subsegment
+    Thin,    ///< an angle is below the bound
+    Large    ///< its area is above the limit
+  };
+  struct Verdict
+  {
+    Need Why;
+    /// Among thin triangles the one with the shortest edge goes first, among large ones that with
+    /// the largest circumcircle, both relative to the size of triangles there: the lower, the
+    /// sooner. Other orders need up to 1.3 times the points.
+    double Rank;
+  };
+
+  double MinimumAngle = 30; ///< degrees
+  double LargestArea = std::numeric_limits<double>::infinity();
+  std::function<double(Point2)> AreaAt;                       ///< further limit; empty: none
+  double LeastArea = std::numeric_limits<double>::infinity(); ///< lower bound of all limits
+  std::vector<double> RegionAreas;                            ///< by region: further limit
+  double ShortestEdge = 0;
+  bool KeepsBorder = false;   ///< no subsegment of the border is split
+  bool KeepsSegments = false; ///< no subsegment at all
+
+  /// Call this after the members above are set. All area limits are multiplied by `coarser`.
+  void prepare(double coarser)
+  {
+    this->Coarser = coarser;
+    this->LeastTwice = 2 * this->LeastArea * coarser;
+    constexpr double degree = 3.14159265358979323846 / 180;
+    const double angle = this->MinimumAngle * degree;
+    // A little above the bound, so that rounding here never accepts an angle below it.
+    this->SineSquared = std::sin(angle) * std::sin(angle) * (1 + 1e-10);
+    // Without a bound on angles, 20 degrees keep triangles at subsegments from becoming flat.
+    const double lens = std::cos(2 * std::clamp(this->MinimumAngle, 20.0, 45.0) * degree);
+    this->LensCosineSquared = lens * lens;
+    // Üngör's off-center, shortened by Shewchuk's 0.95 / 2.
+    this->OffCenter = 0.475 / std::tan(angle / 2);
+  }
+
+  /// Whether p encroaches upon the subsegment ab: it lies in its diametral lens, from where the
+  /// subsegment is seen at more than 180 degrees less twice the bound (Shewchuk 2002, Delaunay
+  /// refinement algorithms for triangular mesh generation).
+  bool isEncroached(Point2 a, Point2 b, Point2 p) const
+  {
+    const Point2 u = a - p;
+    const Point2 v = b - p;
+    return this->isInLens(u.x * v.x + u.y * v.y, u.x * u.x + u.y * u.y, v.x * v.x + v.y * v.y);
+  }
+
+  double areaLimit(Point2 centre, Index region) const
+  {
+    double limit = this->LargestArea;
+    if (this->AreaAt)
+    {
+      limit = std::min(limit, this->AreaAt(centre));
+    }
+    if (!this->RegionAreas.empty())
+    {
+      limit = std::min(limit, this->RegionAreas[std::size_t(region)]);
+    }
+    return limit * this->Coarser;
+  }
+
+  Verdict judge(const RefinementMesh& mesh, const RefinementMesh::Triangle& triangle) const
+  {
+    const Point2 a = mesh.Points[std::size_t(triangle.Corner[0])];
+    const Point2 b = mesh.Points[std::size_t(triangle.Corner[1])];
+    const Point2 c = mesh.Points[std::size_t(triangle.Corner[2])];
+    const Point2 ab = b - a;
+    const Point2 ac = c - a;
+    const Point2 bc = c - b;
+    return this->judge(mesh, triangle,
+      { bc.x * bc.x + bc.y * bc.y, ac.x * ac.x + ac.y * ac.y, ab.x * ab.x + ab.y * ab.y },
+      cross(ab, ac));
+  }
+
+  /// Returns false only if judge() returns Need::None.
+  bool mayNeed(const RefinementMesh::Triangle& triangle, const std::array<double, 3>& squares,
+    double twice) const
+  {
+    const RefinementMesh::Link links = triangle.Across[0] | triangle.Across[1] | triangle.Across[2];
+    return (links & RefinementMesh::IsSegment) != 0 || twice > this->LeastTwice ||
+      this->isThin(squares, twice);
+  }
+
+  /// `squares`: of the lengths of the edges opposite to the corners; `twice`: twice the area.
+  Verdict judge(const RefinementMesh& mesh, const RefinementMesh::Triangle& triangle,
+    const std::array<double, 3>& squares, double twice) const
+  {
+    const RefinementMesh::Link anySegment =
+      (triangle.Across[0] | triangle.Across[1] | triangle.Across[2]) & RefinementMesh::IsSegment;
+    if (anySegment != 0 && (triangle.State & RefinementMesh::KeepsSegments) == 0 &&
+      this->hasEncroached(triangle, squares))
+    {
+      return { Need::Segment, 0 };
+    }
+    const double shortest = std::min(std::min(squares[0], squares[1]), squares[2]);
+    const bool isThin = this->isThin(squares, twice);
+    if ((!isThin && twice <= this->LeastTwice) || (triangle.State & RefinementMesh::IsGivenUp) != 0)
+    {
+      return { Need::None, 0 };
+    }
+    const double limit = this->areaLimit(mesh, triangle);
+    const double unit = std::isfinite(limit) ? limit : 1;
+    const int s = squares[0] == shortest ? 0 : squares[1] == shortest ? 1 : 2;
+    if (isThin && !this->isForced(mesh, triangle, s))
+    {
+      return { Need::Thin, shortest / unit };
+    }
+    if (twice > 2 * limit)
+    {
+      const double squareOfDiameter = squares[0] * squares[1] * squares[2] / (twice * twice);
+      return { Need::Large, unit / squareOfDiameter };
+    }
+    return { Need::None, 0 };
+  }
+
+  /// Whether a thin triangle cannot be improved: its shortest edge joins two input segments that
+  /// meet at a sharp angle, at equal distance from there. So it is where shells around that point
+  /// cut them.
+  bool isForced(
+    const RefinementMesh& mesh, const RefinementMesh::Triangle& triangle, int shortest) const
+  {
+    const Index a = triangle.Corner[std::size_t(RefinementMesh::next(shortest))];
+    const Index b = triangle.Corner[std::size_t(RefinementMesh::previous(shortest))];
+    const Index originA = mesh.Origins[std::size_t(a)];
+    const Index originB = mesh.Origins[std::size_t(b)];
+    if (!RefinementMesh::isOnSegment(originA) || !RefinementMesh::isOnSegment(originB) ||
+      originA == originB)
+    {
+      return false;
+    }
+    const InputSegment& s = mesh.Segments[std::size_t(RefinementMesh::segmentNumber(originA))];
+    const InputSegment& t = mesh.Segments[std::size_t(RefinementMesh::segmentNumber(originB))];
+    for (std::size_t i = 0; i < 2; ++i)
+    {
+      if (s.IsSharp[i] && (s.Ids[i] == t.Ids[0] || s.Ids[i] == t.Ids[1]))
+      {
+        const Point2 u = mesh.Points[std::size_t(a)] - s.Ends[i];
+        const Point2 v = mesh.Points[std::size_t(b)] - s.Ends[i];
+        const double x = u.x * u.x + u.y * u.y;
+        const double y = v.x * v.x + v.y * v.y;
+        constexpr double equal = 1.002;
+        return x < equal * y && y < equal * x;
+      }
+    }
+    return false;
+  }
+
+  /// The point to insert for a triangle: its circumcentre, or the point on the bisector of its
+  /// shortest edge that makes a triangle of good shape with that edge, if that is nearer: Üngör's
+  /// off-center (Off-centers: a new type of Steiner points, 2004).
+  Point2 pointFor(const std::array<Point2, 3>& p) const
+  {
+    std::array<double, 3> squares;
+    for (int i = 0; i < 3; ++i)
+    {
+      const Point2 edge =
+        p[std::size_t(RefinementMesh::previous(i))] - p[std::size_t(RefinementMesh::next(i))];
+      squares[std::size_t(i)] = edge.x * edge.x + edge.y * edge.y;
+    }
+    int s = squares[1] < squares[0] ? 1 : 0;
+    s = squares[2] < squares[std::size_t(s)] ? 2 : s;
+    const Point2 apex = p[std::size_t(s)];
+    const Point2 from = p[std::size_t(RefinementMesh::next(s))];
+    const Point2 to = p[std::size_t(RefinementMesh::previous(s))];
+    const Point2 u = from - apex;
+    const Point2 v = to - apex;
+    // The centre is half the edge's length times the cotangent of the angle at the apex away.
+    const double away = std::min((u.x * v.x + u.y * v.y) / (2 * cross(u, v)), this->OffCenter);
+    const Point2 edge = to - from;
+    return { from.x + (edge.x / 2 - edge.y * away), from.y + (edge.y / 2 + edge.x * away) };
+  }
+
+  /// The same for the product of the vectors from p to both ends, and their squares.
+  bool isInLens(double product, double u, double v) const
+  {
+    return product < 0 && product * product >= this->LensCosineSquared * u * v;
+  }
+
+private:
+  double Coarser = 1;
+  double LeastTwice = 0; ///< twice a lower bound of all limits
+
+  /// The angle between the two longer edges is the smallest one: its sine is twice the area over
+  /// the product of their lengths.
+  bool isThin(const std::array<double, 3>& squares, double twice) const
+  {
+    const double shortest = std::min(std::min(squares[0], squares[1]), squares[2]);
+    return twice * twice * shortest < this->SineSquared * (squares[0] * squares[1] * squares[2]);
+  }
+
+  bool hasEncroached(
+    const RefinementMesh::Triangle& triangle, const std::array<double, 3>& squares) const
+  {
+    for (int i = 0; i < 3; ++i)
+    {
+      const double u = squares[std::size_t(RefinementMesh::next(i))];
+      const double v = squares[std::size_t(RefinementMesh::previous(i))];
+      if (RefinementMesh::isSegment(triangle.Across[std::size_t(i)]) &&
+        this->isInLens((u + v - squares[std::size_t(i)]) / 2, u, v))
+      {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  double areaLimit(const RefinementMesh& mesh, const RefinementMesh::Triangle& triangle) const
+  {
+    const auto region = Index(triangle.State >> RefinementMesh::RegionShift);
+    if (!this->AreaAt)
+    {
+      return this->areaLimit(Point2(), region);
+    }
+    const Point2 a = mesh.Points[std::size_t(triangle.Corner[0])];
+    const Point2 b = mesh.Points[std::size_t(triangle.Corner[1])];
+    const Point2 c = mesh.Points[std::size_t(triangle.Corner[2])];
+    return this->areaLimit({ (a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3 }, region);
+  }
+
+  double SineSquared = 0;
+  double LensCosineSquared = 0;
+  double OffCenter = 0;
+};
+
+} // namespace tipp
+
+#endif

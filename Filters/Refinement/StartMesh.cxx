@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Refinement/StartMesh.h"
+
+#include "Arrays/FindNeighbors.h"
+#include "Predicates/ExactPredicates.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+#include <vector>
+
+namespace tipp
+{
+namespace
+{
+
+using Index = RefinementMesh::Index;
+using Link = RefinementMesh::Link;
+
+std::size_t nextSlot(std::size_t slot)
+{
+  return slot % 3 == 2 ? slot - 2 : slot + 1;
+}
+std::size_t previousSlot(std::size_t slot)
+{
+  return slot % 3 == 0 ? slot + 2 : slot - 1;
+}
+
+/// The triangles given: corners, neighbours, and which of them are in the domain.
+class GivenTriangles
+{
+public:
+  GivenTriangles(const Triangulation& triangulation, const RefinementMesh& segments)
+    : Segments(segments)
+    , Corners(3 * triangulation.triangleCount())
+    , Neighbors(this->Corners.size())
+    , IsInside(this->Corners.size() / 3, 1)
+  {
+    if (this->IsInside.size() > RefinementMesh::MostTriangles)
+    {
+      throw std::length_error("The mesh would have too many triangles for the memory.");
+    }
+    if (!triangulation.Ids32.empty())
+    {
+      std::copy(triangulation.Ids32.begin(), triangulation.Ids32.end(), this->Corners.begin());
+    }
+    else
+    {
+      std::copy(triangulation.Ids64.begin(), triangulation.Ids64.end(), this->Corners.begin());
+    }
+    findNeighbors(this->Corners.data(), this->IsInside.size(), this->Neighbors.data());
+  }
+
+  bool isSegment(std::size_t slot) const
+  {
+    return this->Segments.has(this->Corners[nextSlot(slot)], this->Corners[previousSlot(slot)]);
+  }
+
+  /// Calls enter(triangle) for all triangles that can be reached from those in `front` without
+  /// crossing a segment, where it returns true.
+  template <typename Enter>
+  void spread(std::vector<std::size_t> front, const Enter& enter) const
+  {
+    while (!front.empty())
+    {
+      const std::size_t t = front.back();
+      front.pop_back();
+      for (std::size_t slot = 3 * t; slot < 3 * t + 3; ++slot)
+      {
+        if (this->Neighbors[slot] >= 0 && !this->isSegment(slot) &&
+          enter(std::size_t(this->Neighbors[slot])))
+        {
+          front.push_back(std::size_t(this->Neighbors[slot]));
+        }
+      }
+    }
+  }
+
+  /// Removes what can be reached from outside without crossing a segment.
+  void keepEnclosed()
+  {
+    std::vector<std::size_t> front;
+    const auto enter = [this](std::size_t t) { return std::exchange(this->IsInside[t], 0) != 0; };
+    for (std::size_t slot = 0; slot < this->Corners.size(); ++slot)
+    {
+      if (this->Neighbors[slot] < 0 && !this->isSegment(slot) && enter(slot / 3))
+      {
+        front.push_back(slot / 3);
+      }
+    }
+    this->spread(std::move(front), enter);
+  }
+
+  /// By triangle: 0, or 1 and the index of the region. Throws std::invalid_argument.
+  std::vector<std::uint32_t> regions(
+    PointsView points, const std::vector<RefinementRegion>& regions) const
+  {
+    std::vector<std::uint32_t> result(this->IsInside.size(), 0);
+    for (std::size_t r = 0; r < regions.size(); ++r)
+    {
+      const std::size_t start = this->find(points, regions[r].Seed);
+      if (start == this->IsInside.size())
+      {
+        throw std::invalid_argument(
+          fmt::format("The point ({}, {}) of region {} is in no triangle of the domain.",
+            regions[r].Seed.x, regions[r].Seed.y, r));
+      }
+      const auto enter = [&](std::size_t t)
+      { return this->IsInside[t] && std::exchange(result[t], std::uint32_t(r + 1)) != r + 1; };
+      enter(start);
+      this->spread({ start }, enter);
+    }
+    return result;
+  }
+
+  const RefinementMesh& Segments;
+  std::vector<Index> Corners;
+  std::vector<Index> Neighbors; ///< by corner: the triangle across the opposite edge, or -1
+  std::vector<char> IsInside;
+
+private:
+  /// The first triangle with a point inside or on its border; the number of triangles if none.
+  std::size_t find(PointsView points, Point2 p) const
+  {
+    for (std::size_t t = 0; t < this->IsInside.size(); ++t)
+    {
+      const Point2 a = points[std::size_t(this->Corners[3 * t])];
+      const Point2 b = points[std::size_t(this->Corners[3 * t + 1])];
+      const Point2 c = points[std::size_t(this->Corners[3 * t + 2])];
+      if (this->IsInside[t] && orientation(a, b, p) >= 0 && orientation(b, c, p) >= 0 &&
+        orientation(c, a, p) >= 0)
+      {
+        return t;
+      }
+    }
+    return this->IsInside.size();
+  }
+};
+
+/// A segment as seen from one of its ends.
+struct Ray
+{
+  Index Id; ///< of the end
+  double Direction;
+  Index Segment;
+  std::size_t End;
+  bool HasDomain; ///< the triangles to its left are in the domain
+};
+
+/// Finds the ends at which a segment and the next one, seen across the domain, make a sharp angle.
+void findSharpEnds(std::vector<Ray> rays, std::vector<InputSegment>& segments)
+{
+  constexpr double pi = 3.14159265358979323846;
+  std::sort(rays.begin(), rays.end(),
+    [](const Ray& a, const Ray& b)
+    { return a.Id != b.Id ? a.Id < b.Id : a.Direction < b.Direction; });
+  for (std::size_t begin = 0, end = 0; begin < rays.size(); begin = end)
+  {
+    while (end < rays.size() && rays[end].Id == rays[begin].Id)
+    {
+      ++end;
+    }
+    for (std::size_t i = begin; i < end && end > begin + 1; ++i)
+    {
+      const Ray& ray = rays[i];
+      const Ray& next = rays[i + 1 < end ? i + 1 : begin];
+      const double angle = next.Direction - ray.Direction + (i + 1 < end ? 0 : 2 * pi);
+      if (ray.HasDomain && angle < pi / 3)
+      {
+        segments[std::size_t(ray.Segment)].IsSharp[ray.End] = true;
+        segments[std::size_t(next.Segment)].IsSharp[next.End] = true;
+      }
+    }
+  }
+}
+
+} // namespace
+
+void startMesh(PointsView points, const ConstrainedTriangulation& triangulation,
+  const RefinementOptions& options, RefinementMesh& mesh)
+{
+  if (points.size() > RefinementMesh::MostTriangles)
+  {
+    throw std::length_error("The mesh would have too many points.");
+  }
+  const auto segmentOf = [&](PointId a, PointId b, std::int64_t constraint)
+  {
+    InputSegment segment{ { Index(a), Index(b) },
+      { points[std::size_t(a)], points[std::size_t(b)] } };
+    segment.Constraint = constraint;
+    return segment;
+  };
+  for (const IdSegment& segment : triangulation.Constraints.Segments)
+  {
+    if (!mesh.has(Index(segment.A), Index(segment.B)))
+    {
+      mesh.add(segmentOf(segment.A, segment.B, segment.Constraint));
+    }
+  }
+  GivenTriangles given(triangulation.Mesh, mesh);
+  if (options.IsEnclosed)
+  {
+    given.keepEnclosed();
+  }
+  const std::vector<std::uint32_t> regions = given.regions(points, options.Regions);
+  std::vector<Index> numbers(given.IsInside.size(), -1); // of the triangles in the mesh
+  std::int64_t count = 0;
+  for (std::size_t t = 0; t < numbers.size(); ++t)
+  {
+    numbers[t] = given.IsInside[t] ? Index(count++) : -1;
+  }
+  std::vector<Index> vertices(points.size(), -1);
+  std::int64_t vertexCount = 0;
+  std::vector<Ray> rays;
+  for (std::size_t slot = 0; slot < given.Corners.size(); ++slot)
+  {
+    const Index t = numbers[slot / 3];
+    if (t < 0)
+    {
+      continue;
+    }
+    RefinementMesh::Triangle& triangle = mesh.Triangles[std::size_t(t)];
+    const Index id = given.Corners[slot];
+    Index& vertex = vertices[std::size_t(id)];
+    if (vertex < 0)
+    {
+      vertex = Index(vertexCount++);
+      mesh.Points[std::size_t(vertex)] = points[std::size_t(id)];
+      mesh.Origins[std::size_t(vertex)] = RefinementMesh::ofInput(id);
+    }
+    triangle.Corner[slot % 3] = vertex;
+    triangle.State = RefinementMesh::IsLive | (regions[slot / 3] << RefinementMesh::RegionShift);
+    const Index start = given.Corners[nextSlot(slot)];
+    const Index stop = given.Corners[previousSlot(slot)];
+    const Index beside = given.Neighbors[slot];
+    const bool isBorder = beside < 0 || numbers[std::size_t(beside)] < 0;
+    if (isBorder && !mesh.has(start, stop))
+    {
+      mesh.add(segmentOf(start, stop, -1));
+    }
+    const bool isSegment = isBorder || given.isSegment(slot);
+    Link link = RefinementMesh::Outside;
+    if (!isBorder)
+    {
+      int corner = 0;
+      while (given.Corners[nextSlot(3 * std::size_t(beside) + std::size_t(corner))] != stop)
+      {
+        ++corner;
+      }
+      link = RefinementMesh::linkTo(numbers[std::size_t(beside)], corner) |
+        (isSegment ? RefinementMesh::IsSegment : 0);
+    }
+    triangle.Across[slot % 3] = link;
+    if (isSegment)
+    {
+      const Index number = mesh.segmentBetween(start, stop);
+      const InputSegment& segment = mesh.Segments[std::size_t(number)];
+      const auto directionOf = [&](std::size_t from)
+      {
+        const Point2 along = segment.Ends[1 - from] - segment.Ends[from];
+        return std::atan2(along.y, along.x);
+      };
+      const std::size_t from = segment.Ids[0] == start ? 0 : 1;
+      rays.push_back({ start, directionOf(from), number, from, true });
+      if (isBorder)
+      {
+        rays.push_back({ stop, directionOf(1 - from), number, 1 - from, false });
+      }
+    }
+  }
+  const auto addGroups = [](std::int64_t taken, Index group, std::vector<Index>& groups)
+  {
+    std::int64_t end = 0;
+    for (; end < taken; end += group)
+    {
+      groups.push_back(Index(end));
+    }
+    return end;
+  };
+  mesh.TriangleEnd = addGroups(count, RefinementMesh::TrianglesInGroup, mesh.TriangleGroups);
+  mesh.PointEnd = addGroups(vertexCount, RefinementMesh::PointsInGroup, mesh.PointGroups);
+  findSharpEnds(std::move(rays), mesh.Segments);
+}
+
+} // namespace tipp
