@@ -59,7 +59,7 @@ struct SurfaceTriangle
     return sum;
   }
 
-private:
+  /// The barycentric weights of the sorted corners at a position in the triangle.
   std::array<double, 3> weightsAt(Point2 position) const;
 };
 
