@@ -4,7 +4,7 @@
 #include "Constraints/Insertion/TriangulateConstrained.h"
 #include "Parallel/ParallelFor.h"
 
-#include <fmt/format.h>
+#include <string>
 
 #include <algorithm>
 #include <array>

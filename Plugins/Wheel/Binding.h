@@ -6,6 +6,7 @@
 #include "Arrays/Scalar.h"
 #include "Points/ReadPoints.h"
 #include "Resample/SimplexMesh.h"
+#include "Triangulation/PointsView.h"
 
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
@@ -63,6 +64,16 @@ inline Scalar scalarOf(nb::dlpack::dtype type)
     default:
       return isReal ? Scalar::Float64 : isSigned ? Scalar::Int64 : Scalar::UInt64;
   }
+}
+
+/// Returns a view of points of shape (n, 2) or (n, 3), float32 or float64, without a copy.
+inline PointsView viewOf(const InputArray& points)
+{
+  const std::size_t count = points.shape(0);
+  const std::size_t stride = points.shape(1);
+  return scalarOf(points.dtype()) == Scalar::Float32
+    ? PointsView(static_cast<const float*>(points.data()), count, stride)
+    : PointsView(static_cast<const double*>(points.data()), count, stride);
 }
 
 /// The number of values in each row of an array.
@@ -218,6 +229,7 @@ inline LasSelection lasSelection(
 void addTriangulateFunctions(nb::module_& module);
 void addFileFunctions(nb::module_& module);
 void addGridFunctions(nb::module_& module);
+void addMeshFunctions(nb::module_& module);
 void addQueryClass(nb::module_& module);
 void addToolFunctions(nb::module_& module);
 

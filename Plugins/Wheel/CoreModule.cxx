@@ -126,6 +126,7 @@ NB_MODULE(_core, module)
       }
     });
   tipp::python::addTriangulateFunctions(module);
+  tipp::python::addMeshFunctions(module);
   tipp::python::addGridFunctions(module);
   tipp::python::addFileFunctions(module);
   tipp::python::addQueryClass(module);

@@ -29,16 +29,6 @@ namespace tipp::python
 namespace
 {
 
-/// Returns a view of points of shape (n, 2) or (n, 3), float32 or float64, without a copy.
-PointsView viewOf(const InputArray& points)
-{
-  const std::size_t count = points.shape(0);
-  const std::size_t stride = points.shape(1);
-  return scalarOf(points.dtype()) == Scalar::Float32
-    ? PointsView(static_cast<const float*>(points.data()), count, stride)
-    : PointsView(static_cast<const double*>(points.data()), count, stride);
-}
-
 /// Converts (m, 2) ids of the ends of constraints, and for each the number of its line or polygon.
 SourceConstraints constraintsOf(
   const InputArray& pairs, const InputArray& cells, std::size_t polygonBegin)

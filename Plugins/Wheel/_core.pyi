@@ -29,6 +29,18 @@ def triangulate(
     progress: _Progress | None,
     /,
 ) -> dict[str, Any]: ...
+def mesh(
+    points: _Array,
+    pairs: _Array,
+    polygon_begin: int,
+    options: _Options,
+    lengths: _Array | None,
+    surface: tuple[_Array, _Array, _Array] | None,  # points, (m, 3) int32 corners, lengths at the points
+    values: bool,
+    progress: _Progress | None,
+    /,
+) -> dict[str, Any]: ...
+def blend(values: _Array, ids: _Array, weights: _Array, /) -> _Array: ...
 def match_positions(points: _Array, corners: _Array, /) -> tuple[_Array, _Array]: ...
 def interpolate(values: _Array, crossings: _Array, /) -> _Array: ...
 def alpha_shape(

@@ -189,6 +189,35 @@ def delaunay_2d(points: Any, point_data: Any, options: dict[str, Any],
     return mesh, statistics
 
 
+def mesh(points: np.ndarray, point_data: dict[str, np.ndarray], lines: list[np.ndarray], polygons: list[np.ndarray],
+         options: dict[str, Any], surface: Mesh | None, progress: Progress | None) -> Mesh:
+    """Meshes (n, 3) points with lines and polygons between them. `surface` has the point array "size", or is None."""
+    points = plain(points)
+    pairs, cells, begin = constraints.edges_of(lines, polygons)
+    sizes = None if surface is None else (
+        plain(surface.points), np.ascontiguousarray(surface.cells, np.int32),
+        np.ascontiguousarray(surface.point_data["size"], np.float64))
+    result = _core.mesh(points, pairs, begin, options, options["lengths"], sizes, True, progress)
+    finish(progress)
+    ids, weights, new = result["ids"], result["weights"], result["new"]
+    if len(new):
+        points = _core.blend(np.ascontiguousarray(points, np.float64), ids, weights)
+        points[-len(new):, :2] = new
+        point_data = {name: _core.blend(values, ids, weights).reshape(-1, *values.shape[1:])
+                      for name, values in point_data.items()}
+    found = Mesh(_writable(points), result["triangles"], {name: _writable(values) for name, values in point_data.items()})
+    if options["regions"]:
+        found.cell_data["Region"] = result["regions"]
+    found.cell_data["OutsideBounds"] = result["outside"]
+    if options["marks"]:
+        pieces = result["segments"]
+        found.lines = np.ascontiguousarray(pieces[:, :2]).astype(found.cells.dtype, copy=False)
+        found.line_data["ConstraintId"] = np.append(cells, -1)[pieces[:, 2]]  # -1 is the last
+    if result["warnings"]:
+        warn(result["warnings"])
+    return found
+
+
 def _writable(array: np.ndarray) -> np.ndarray:
     """Returns a copy of memory that is read-only, so that users can change each array of a result."""
     return array if array.flags.writeable else array.copy()

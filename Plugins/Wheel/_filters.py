@@ -12,13 +12,13 @@ import numpy as np
 
 from . import _arguments as check
 from . import _core, _engine
-from ._arguments import array_of, DELAUNAY_2D, DELAUNAY_3D, DELAUNAY_FILE, DEM, options_of, QUERY, READ, WRITE
+from ._arguments import array_of, DELAUNAY_2D, DELAUNAY_3D, DELAUNAY_FILE, DEM, MESHING, options_of, QUERY, READ, WRITE
 from ._arrays import grid_position
 from ._data import Image
 from ._dem import lines_of
 from ._filter import add_total, Filter
 from ._results import in_vtk
-from ._vtk import grid_of, image_of, point_cloud, vtk_array, xyz_of
+from ._vtk import cell_lists, grid_of, image_of, point_arrays, point_cloud, simplices_of, vtk_array, xyz_of
 from ._vtkmodules import (
     vtkDataObject,
     vtkDataSet,
@@ -162,6 +162,70 @@ class vtkTIPPOutOfCoreDelaunay2D(Filter):
         totals = vtkTable.GetData(outputs, 0).GetFieldData()
         for key, value in figures.items():
             add_total(array_of(key), value, totals)
+
+
+class vtkTIPPRefine2D(Filter):
+    """A mesh of bounded angles and sizes between the lines and polygons of a vtkPolyData. The second input, which is
+    optional, is a mesh with the array of the wanted lengths of edges."""
+
+    NOT_OUTSIDE, INPUT_ANGLE, SHORTEST_EDGE, KEPT_SEGMENTS, MOST_POINTS = range(5)
+    PROPERTIES = {
+        "MinimumAngle": 30.0, "MaximumArea": 0.0, "SizeArrayName": "", "ShortestEdge": 0.0, "KeepBorder": False,
+        "KeepSegments": False, "Convex": False, "SplitCrossings": True, "GenerateSegments": False, "MostPoints": 0,
+        "NumberOfThreads": 0,
+    }
+    LIMITS = {"MinimumAngle": (0, 34), "MaximumArea": (0, None), "ShortestEdge": (0, None), "MostPoints": (0, None),
+              "NumberOfThreads": (0, 4096)}
+    INPUTS = ("vtkPolyData", "vtkPointSet")
+    OPTIONAL_INPUTS = (1,)
+    INPUT_NAMES = {"Size": 1}
+    OUTPUTS = ("vtkPolyData",)
+
+    def prepare(self) -> None:
+        self.holes: list[tuple[float, float]] = []
+        self.regions: list[tuple[float, float, float]] = []
+
+    def AddHole(self, x: float, y: float) -> None:
+        self.holes.append((float(x), float(y)))
+        self.Modified()
+
+    def ClearHoles(self) -> None:
+        self.holes.clear()
+        self.Modified()
+
+    def AddRegion(self, x: float, y: float, area: float) -> None:
+        self.regions.append((float(x), float(y), float(area)))
+        self.Modified()
+
+    def ClearRegions(self) -> None:
+        self.regions.clear()
+        self.Modified()
+
+    def _lengths(self, data: Any, what: str) -> np.ndarray:
+        """Returns the array of sizes of a data set, as doubles."""
+        name = self.value("SizeArrayName")
+        array = point_arrays(data).get(name)
+        if array is None or array.ndim != 1:
+            raise RuntimeError(f"{what} has no point array '{name}' of one component, which SizeArrayName names.")
+        return np.ascontiguousarray(array, np.float64)
+
+    def execute(self, inputs: Any, outputs: Any) -> None:
+        for name in ("MinimumAngle", "MaximumArea", "ShortestEdge"):
+            check.number(self.value(name), name)
+        source, sizes = vtkPolyData.GetData(inputs[0]), vtkPointSet.GetData(inputs[1])
+        options = {
+            **options_of(self, MESHING), "max_area": self.value("MaximumArea") or math.inf, "holes": self.holes,
+            "regions": [(x, y, area if area > 0 else math.inf) for x, y, area in self.regions], "lengths": None,
+        }
+        surface = None
+        if sizes is not None:
+            surface = simplices_of(sizes)[0]
+            surface.point_data = {"size": self._lengths(sizes, "the mesh of sizes")}
+        elif self.value("SizeArrayName"):
+            options["lengths"] = self._lengths(source, "the input")
+        mesh = _engine.mesh(xyz_of(source), point_arrays(source), cell_lists(source.GetLines()),
+                            cell_lists(source.GetPolys()), options, surface, self.show_progress)
+        vtkPolyData.GetData(outputs, 0).ShallowCopy(in_vtk(mesh))
 
 
 class vtkTIPPPointsToImage(Filter):

@@ -40,7 +40,7 @@ def segments_of(points: np.ndarray, data: dict[str, np.ndarray], options: dict[s
     else:
         lines, polygons, corners, own = _read_source(source, len(points), options.get("merge_source_points", False))
         first = source.GetNumberOfVerts()
-    pairs, cells, begin = _edges_of(lines, polygons)
+    pairs, cells, begin = edges_of(lines, polygons)
     if len(pairs) and not 0 <= pairs.min() <= pairs.max() < len(points) + len(corners):
         wrong = np.flatnonzero((pairs < 0).any(axis=1) | (pairs >= len(points)).any(axis=1))[0]
         raise RuntimeError(f"cell {first + cells[wrong]} of the source names point {pairs[wrong].max()}, but the input "
@@ -79,7 +79,7 @@ def _read_source(source: Any, count: int, has_own_points: bool) -> tuple[Any, ..
     return (*shifted, np.ascontiguousarray(xyz_of(source)), point_arrays(source))
 
 
-def _edges_of(lines: Any, polygons: Any) -> tuple[np.ndarray, np.ndarray, int]:
+def edges_of(lines: Any, polygons: Any) -> tuple[np.ndarray, np.ndarray, int]:
     """Returns the edges of lines and closed polygons, each edge's cell, and the index of the first polygon's edge."""
     parts = [np.column_stack([ids[:-1], ids[1:]]) for ids in lines]
     begin = sum(len(part) for part in parts)

@@ -206,6 +206,9 @@ DELAUNAY_FILE = {"memory": "MemoryLimit", "partitions": "NumberOfPartitions", "m
                  "scratch": "ScratchFolder", "threads": "NumberOfThreads"}
 DEM = {"align": "AlignToResolution", "soft": "SoftBreaklines", "max_edge": "MaximumEdgeLength", "duplicates": "Duplicates",
        "thin_size": "ThinningSize", "thin_rule": "ThinningRule", "memory": "MemoryLimit", "threads": "NumberOfThreads"}
+MESHING = {"min_angle": "MinimumAngle", "max_area": "MaximumArea", "shortest_edge": "ShortestEdge",
+           "keep_border": "KeepBorder", "keep_segments": "KeepSegments", "convex": "Convex", "crossings": "SplitCrossings",
+           "marks": "GenerateSegments", "most_points": "MostPoints", "threads": "NumberOfThreads"}
 QUERY = {"memory": "MemoryLimit", "step": "Step", "threads": "NumberOfThreads"}
 READ = {"merge": "MergePieces", "tiling": "Tiling", "memory_limit": "MemoryLimit"}
 WRITE = {"tiling": "Tiling", "duplicate_borrowers": "DuplicateBorrowers", "memory_limit": "MemoryLimit",

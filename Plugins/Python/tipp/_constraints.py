@@ -73,8 +73,10 @@ def constraints_of(
     edge_source: Any,
     edges: Any,
     polygons: Iterable[Any] | None,
+    edges_name: str = "edges",
 ) -> Constraints | None:
-    """Combines the constraints of all arguments, for `count` points. Returns None if there are none."""
+    """Combines the constraints of all arguments, for `count` points. Returns None if there are none. `edges_name` is the
+    name of the argument `edges`, for messages."""
     if edge_source is not None:
         if edges is not None or polygons is not None:
             raise ValueError("edge_source cannot be combined with edges and polygons; give one or the others.")
@@ -84,7 +86,7 @@ def constraints_of(
         return None
     builder = _Builder(count)
     if edges is not None:
-        _add_edges(edges, builder)
+        _add_edges(edges, edges_name, builder)
     for number, polygon in enumerate([] if polygons is None else items_of(polygons, "polygons")):
         name = f"polygons[{number}]"
         for ring in oriented_rings_of(polygon, name) if polygon is None or is_geometry(polygon) else [polygon]:
@@ -92,21 +94,21 @@ def constraints_of(
     return Constraints(builder.lines, builder.polygons, builder.corners())
 
 
-def _add_edges(edges: ArrayLike | Any, builder: _Builder) -> None:
+def _add_edges(edges: ArrayLike | Any, argument: str, builder: _Builder) -> None:
     """Adds pairs of ids, or lines given by their corners."""
     are_ids = isinstance(edges, np.ndarray) and edges.ndim == 2 or isinstance(edges, (str, bytes))
     is_list = is_geometry(edges) or hasattr(edges, "geometry") or isinstance(edges, Iterable) and not isinstance(edges, Mapping)
-    items = items_of(edges, "edges") if is_list and not are_ids else []
+    items = items_of(edges, argument) if is_list and not are_ids else []
     first = next((item for item in items if item is not None), None)
     if is_geometry(first) or (isinstance(first, (list, tuple, np.ndarray)) and np.ndim(first) == 2):
         for number, item in enumerate(items):
-            name = f"edges[{number}]"
+            name = f"{argument}[{number}]"
             for line in lines_of(item, name) if item is None or is_geometry(item) else [item]:
                 builder.add(line, name, builder.lines)
         return
-    array = converted(edges, "edges")
+    array = converted(edges, argument)
     if array.ndim != 2 or array.shape[1] != 2 or array.dtype.kind not in "iu":
-        raise ValueError(f"edges have the shape {array.shape} and type {array.dtype}; give point ids of shape (m, 2), or "
+        raise ValueError(f"{argument} have the shape {array.shape} and type {array.dtype}; give point ids of shape (m, 2), or "
                          "lines.")
-    builder.require_ids(array, "edges")
+    builder.require_ids(array, argument)
     builder.lines.extend(array)

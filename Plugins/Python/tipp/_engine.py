@@ -16,17 +16,19 @@ from vtkmodules.vtkParallelCore import vtkMultiProcessController
 
 from . import _arguments as check
 from ._arguments import (
-    array_of, DELAUNAY_2D, DELAUNAY_3D, DELAUNAY_FILE, DEM, Progress, QUERY, READ, set_properties, TRIANGULATION, WRITE)
+    array_of, DELAUNAY_2D, DELAUNAY_3D, DELAUNAY_FILE, DEM, MESHING, Progress, QUERY, READ, set_properties, TRIANGULATION,
+    WRITE)
 from ._data import as_array, Mesh
 from ._constraints import Constraints, constraints_of
 from ._results import in_vtk
 from ._run import run
 from ._surface import completed, completed_on_ranks
 from ._vtk import (
-    arrays_of, grid_of, numpy_of, point_arrays, point_cloud, triangles_of, vtk_points, xyz_of)
+    arrays_of, from_vtk, grid_of, numpy_of, point_arrays, point_cloud, triangles_of, vtk_array, vtk_points,
+    xyz_of)
 from .vtkTIPPFilters import (
     vtkPartitionedMeshQuery, vtkRangeResampleFilter, vtkTIPPDelaunay2D, vtkTIPPDelaunay3D, vtkTIPPOutOfCoreDelaunay2D,
-    vtkTIPPPointsToImage)
+    vtkTIPPPointsToImage, vtkTIPPRefine2D)
 from .vtkTIPPIO import vtkPartitionedUnstructuredReader, vtkPartitionedUnstructuredWriter, vtkTIPPPointReader
 
 if TYPE_CHECKING:
@@ -166,6 +168,41 @@ def _statistics(totals: Any) -> dict[str, Any]:
     if names is not None and seconds is not None:
         result["seconds"] = {names.GetValue(i): seconds.GetValue(i) for i in range(names.GetNumberOfValues())}
     return result
+
+
+def mesh(points: np.ndarray, point_data: dict[str, np.ndarray], lines: list[np.ndarray], polygons: list[np.ndarray],
+         options: dict[str, Any], surface: Mesh | None, progress: Progress | None) -> Mesh:
+    """Meshes (n, 3) points with lines and polygons between them. `surface` has the point array "size", or is None."""
+    if _count_ranks() > 1:
+        raise RuntimeError("a mesh is made on one rank; call the function outside of tipp.ranks().")
+    source = point_cloud(points, point_data)
+    source.SetLines(_cells(lines))
+    source.SetPolys(_cells(polygons))
+    maker = vtkTIPPRefine2D()
+    maker.SetInputData(source)
+    set_properties(maker, MESHING, {**options, "max_area": _limit(options["max_area"])})
+    for x, y in options["holes"]:
+        maker.AddHole(x, y)
+    for x, y, area in options["regions"]:
+        maker.AddRegion(x, y, _limit(area))
+    if surface is not None:
+        maker.SetSizeData(surface.to_vtk())
+        maker.SetSizeArrayName("size")
+    name = ""
+    if options["lengths"] is not None:
+        while not name or name in point_data:
+            name += "size"
+        source.GetPointData().AddArray(vtk_array(name, options["lengths"]))
+        maker.SetSizeArrayName(name)
+    run(maker, progress)
+    result = from_vtk(maker.GetOutput())
+    result.point_data.pop(name, None)
+    return result
+
+
+def _limit(largest: float) -> float:
+    """Returns a limit of VTK's classes, for which 0 means none."""
+    return 0.0 if math.isinf(largest) else largest
 
 
 def delaunay_file(
