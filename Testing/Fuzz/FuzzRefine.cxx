@@ -54,6 +54,9 @@ RefinementCase drawRefinementCase(std::mt19937_64& random)
     {
       drawn.Graph.XY[i] = below(9);
     }
+    // Points on a segment between such a coordinate and 0 have none of the numbers between them.
+    constexpr double tiny = 1e-250;
+    drawn.Graph.XY[i] = std::fabs(drawn.Graph.XY[i]) < tiny ? 0 : drawn.Graph.XY[i];
     side = std::max(side, std::fabs(drawn.Graph.XY[i] - drawn.Graph.XY[i % 2]));
     largest = std::max(largest, std::fabs(drawn.Graph.XY[i]));
   }
