@@ -117,6 +117,11 @@ void requireComplete(const SizeArguments& arguments, bool hasShoreline)
 std::unique_ptr<PlaneValues> openWithin(
   const std::string& path, const PlaneValuesOptions& options, const Box2& domain)
 {
+  if (!isFinite(domain))
+  {
+    refuse("The domain has no finite corners, so nothing can be read there; give lines with finite "
+           "coordinates.");
+  }
   std::unique_ptr<PlaneValues> values = openPlaneValues(path, options);
   if (!values->box().meets(domain))
   {

@@ -17,76 +17,188 @@ namespace
 constexpr double pi = 3.14159265358979323846;
 using Segment = std::array<Point2, 2>;
 
-/// The distance of a point from a segment, where a unit of x and y has these lengths.
-double distanceFrom(Point2 p, const Segment& segment, double unitX, double unitY)
+/// The squared distance of a point from a segment, where a unit of x and y has these lengths.
+double squaredDistance(Point2 p, const Segment& segment, double unitX, double unitY)
 {
   const Point2 a{ (segment[0].x - p.x) * unitX, (segment[0].y - p.y) * unitY };
   const Point2 edge{ (segment[1].x - segment[0].x) * unitX, (segment[1].y - segment[0].y) * unitY };
   const double squared = edge.x * edge.x + edge.y * edge.y;
   const double along = squared > 0 ? -(a.x * edge.x + a.y * edge.y) / squared : 0;
   const double share = std::min(std::max(along, 0.0), 1.0);
-  return std::hypot(a.x + share * edge.x, a.y + share * edge.y);
+  const Point2 apart{ a.x + share * edge.x, a.y + share * edge.y };
+  return apart.x * apart.x + apart.y * apart.y;
 }
 
-/// Finds distances to the nearest of many segments.
-class NearestSegments
+/// Limits sizes by the distance to the nearest segment, tile by tile of nodes: one search finds the
+/// few segments that may be nearest to a node of a tile. Distances are counted in steps between
+/// rows, so that their squares do not overflow.
+class DistanceLimit
 {
 public:
-  NearestSegments(const SizeLattice& lattice, const std::vector<Segment>& segments, int threads)
+  static constexpr int Side = 8; ///< of a tile, in nodes
+
+  DistanceLimit(const SizeLattice& lattice, const std::vector<Segment>& segments, double least,
+    double dis, int threads, std::vector<double>& sizes)
     : Nodes(lattice)
     , Segments(segments)
+    , Least(least)
+    , PerStep(dis * lattice.stepY())
+    , UnitY(lattice.unitY() / lattice.stepY())
+    , TreeUnitX(lattice.middleUnitX() / lattice.stepY())
     , Tree(std::int64_t(segments.size()), threadCount(threads),
         [this](std::int64_t i)
         {
           const Segment& segment = this->Segments[std::size_t(i)];
           return Box2::of(this->placed(segment[0]), this->placed(segment[1]));
         })
+    , Sizes(sizes)
   {
   }
 
-  /// Returns the distance of a node from the nearest segment that is nearer than `most`, or `most`.
-  /// `nearest` is that segment, or -1; if it is set before, that is where the search begins.
-  double distance(int column, int row, double most, std::int64_t& nearest) const
+  int tilesAcross() const { return (this->Nodes.columns() + Side - 1) / Side; }
+  std::int64_t tiles() const
   {
-    const Point2 node = this->Nodes.at(column, row);
-    const double unitX = this->Nodes.unitX(row);
-    // The tree has the lengths of the middle row, so it may overestimate those of this row.
-    const double ratio = std::min(unitX / this->Nodes.middleUnitX(), 1.0);
-    double best = most;
-    const auto compare = [&](std::int64_t i)
+    return std::int64_t(this->tilesAcross()) * ((this->Nodes.rows() + Side - 1) / Side);
+  }
+
+  /// A segment, and its distance from the centre of a tile.
+  struct Near
+  {
+    double Distance;
+    std::int32_t Segment;
+  };
+
+  /// `found` is memory that calls on the same thread share.
+  void limitTile(std::int64_t number, std::vector<Near>& found)
+  {
+    const Tile tile = this->tileOf(number);
+    this->findSegments(tile, found);
+    for (int row = tile.Row; row < tile.RowEnd && !found.empty(); ++row)
     {
-      const double distance =
-        distanceFrom(node, this->Segments[std::size_t(i)], unitX, this->Nodes.unitY());
-      if (distance < best)
+      for (int column = tile.Column; column < tile.ColumnEnd; ++column)
       {
-        best = distance;
-        nearest = i;
+        const double distance = this->distanceFrom(tile, column, row, found);
+        double& size = this->Sizes[this->Nodes.index(column, row)];
+        size = std::min(size, this->Least + this->PerStep * distance);
       }
-    };
-    if (nearest >= 0)
-    {
-      compare(nearest);
     }
-    this->Tree.searchNear(
-      this->placed(node),
-      [&](std::int32_t i)
-      {
-        compare(i);
-        return best / ratio;
-      },
-      best / ratio);
-    return best;
   }
 
 private:
-  Point2 placed(Point2 p) const
+  struct Tile
   {
-    return { p.x * this->Nodes.middleUnitX(), p.y * this->Nodes.unitY() };
+    int Column;
+    int Row;
+    int ColumnEnd;
+    int RowEnd;
+    Point2 Centre;
+    double UnitX; ///< the length of a unit of x at the centre, in steps
+    double Reach; ///< how far nodes may be from the centre
+    double Ratio; ///< how much longer a distance may be at one row than at another
+    double Most;  ///< farther segments lower no size of the tile
+  };
+
+  double unitX(int row) const { return this->Nodes.unitX(row) / this->Nodes.stepY(); }
+  Point2 placed(Point2 p) const { return { p.x * this->TreeUnitX, p.y * this->UnitY }; }
+  double squaredFrom(Point2 p, std::int32_t segment, double unitX) const
+  {
+    return squaredDistance(p, this->Segments[std::size_t(segment)], unitX, this->UnitY);
   }
+
+  /// Returns the distance of a node from the nearest of the segments, which are sorted by their
+  /// distance from the tile's centre.
+  double distanceFrom(
+    const Tile& tile, int column, int row, const std::vector<Near>& segments) const
+  {
+    const Point2 node = this->Nodes.at(column, row);
+    const double unitX = this->unitX(row);
+    const double offset =
+      std::hypot((node.x - tile.Centre.x) * tile.UnitX, (node.y - tile.Centre.y) * this->UnitY);
+    double squared = std::numeric_limits<double>::infinity();
+    double wanted = squared; // farther segments from the centre are farther from the node
+    for (const Near& near : segments)
+    {
+      if (near.Distance > wanted)
+      {
+        break;
+      }
+      const double other = this->squaredFrom(node, near.Segment, unitX);
+      if (other < squared)
+      {
+        squared = other;
+        wanted = (std::sqrt(squared) * tile.Ratio + offset) * Rounding;
+      }
+    }
+    return std::sqrt(squared);
+  }
+
+  Tile tileOf(std::int64_t number) const
+  {
+    Tile tile{};
+    tile.Column = int(number % this->tilesAcross()) * Side;
+    tile.Row = int(number / this->tilesAcross()) * Side;
+    tile.ColumnEnd = std::min(tile.Column + Side, this->Nodes.columns());
+    tile.RowEnd = std::min(tile.Row + Side, this->Nodes.rows());
+    const int middle = (tile.Row + tile.RowEnd) / 2;
+    const Point2 low = this->Nodes.at(tile.Column, tile.Row);
+    const Point2 high = this->Nodes.at(tile.ColumnEnd - 1, tile.RowEnd - 1);
+    tile.Centre = Box2{ low, high }.center();
+    tile.UnitX = this->unitX(middle);
+    tile.Reach = std::hypot((high.x - low.x) / 2 * tile.UnitX, (high.y - low.y) / 2 * this->UnitY);
+    const auto [least, most] =
+      std::minmax({ this->unitX(tile.Row), tile.UnitX, this->unitX(tile.RowEnd - 1) });
+    tile.Ratio = most / least;
+    for (int row = tile.Row; row < tile.RowEnd; ++row)
+    {
+      for (int column = tile.Column; column < tile.ColumnEnd; ++column)
+      {
+        const double size = this->Sizes[this->Nodes.index(column, row)];
+        tile.Most = std::max(tile.Most, (size - this->Least) / this->PerStep);
+      }
+    }
+    return tile;
+  }
+
+  /// Finds the segments that may be the nearest of a node of the tile and lower its size. If the
+  /// centre is at the distance d from the nearest segment, that of a node is at most d and twice
+  /// the reach from the centre, all but for the ratio.
+  void findSegments(const Tile& tile, std::vector<Near>& found) const
+  {
+    found.clear();
+    if (!(tile.Most > 0))
+    {
+      return;
+    }
+    double wanted = (tile.Most * tile.Ratio + tile.Reach) * Rounding;
+    // The tree has the lengths of the middle row of all, which may be longer than here.
+    const double treeRatio = std::min(tile.UnitX / this->TreeUnitX, 1.0);
+    this->Tree.searchNear(
+      this->placed(tile.Centre),
+      [&](std::int32_t i)
+      {
+        const double distance = std::sqrt(this->squaredFrom(tile.Centre, i, tile.UnitX));
+        wanted = std::min(wanted, ((distance + tile.Reach) * tile.Ratio + tile.Reach) * Rounding);
+        found.push_back({ distance, i });
+        return wanted / treeRatio;
+      },
+      wanted / treeRatio);
+    found.erase(std::remove_if(found.begin(), found.end(),
+                  [wanted](const Near& near) { return !(near.Distance <= wanted); }),
+      found.end());
+    std::sort(found.begin(), found.end(),
+      [](const Near& a, const Near& b) { return a.Distance < b.Distance; });
+  }
+
+  static constexpr double Rounding = 1 + 1e-12; ///< covers the rounding of bounds
 
   const SizeLattice& Nodes;
   const std::vector<Segment>& Segments;
+  double Least;
+  double PerStep; ///< by how much a size may grow in a step
+  double UnitY;   ///< the length of a unit of y, in steps
+  double TreeUnitX;
   BoxTree<2> Tree;
+  std::vector<double>& Sizes;
 };
 
 } // namespace
@@ -94,23 +206,21 @@ private:
 void limitByDistance(const SizeLattice& lattice, const std::vector<Segment>& segments, double least,
   double dis, int threads, const Report& report, std::vector<double>& sizes)
 {
-  const NearestSegments shoreline(lattice, segments, threads);
-  forRows(lattice, threads, report,
-    [&](int row)
+  DistanceLimit limit(lattice, segments, least, dis, threads, sizes);
+  std::vector<std::vector<DistanceLimit::Near>> found(std::size_t(threadCount(threads)));
+  constexpr std::int64_t chunk = 64;
+  const bool isComplete = forChunks(limit.tiles(), chunk, threadCount(threads), report,
+    [&](std::int64_t begin, std::int64_t end, int thread)
     {
-      std::int64_t nearest = -1; // also near the next node
-      for (int column = 0; column < lattice.columns(); ++column)
+      for (std::int64_t tile = begin; tile < end; ++tile)
       {
-        double& size = sizes[lattice.index(column, row)];
-        // A segment farther than this does not lower the size.
-        const double most = (size - least) / dis;
-        if (most > 0)
-        {
-          const double distance = shoreline.distance(column, row, most, nearest);
-          size = std::min(size, least + dis * distance);
-        }
+        limit.limitTile(tile, found[std::size_t(thread)]);
       }
     });
+  if (!isComplete)
+  {
+    throw WorkAborted();
+  }
 }
 
 double sizeByWavelength(double depth, double elements)

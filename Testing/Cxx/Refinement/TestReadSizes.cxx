@@ -489,6 +489,8 @@ TEST_F(ReadSizes, DomainsMustFit)
   EXPECT_THROW(
     makeSizeFunction(arguments, {}, { { 0, 0 }, { 100, 1000 } }, 1, {}), std::invalid_argument);
   EXPECT_THROW(makeSizeFunction(arguments, {}, Box2::empty(), 1, {}), std::invalid_argument);
+  arguments = ofFile(this->points(basin));
+  EXPECT_THROW(makeSizeFunction(arguments, {}, Box2::empty(), 1, {}), std::invalid_argument);
 }
 
 TEST_F(ReadSizes, MissingFilesAreReported)
