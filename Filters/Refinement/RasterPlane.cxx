@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Refinement/PlaneValues.h"
 
+#include "Files/Formats.h"
 #include "Files/IOError.h"
 #include "Predicates/SensibleRange.h"
 #include "Raster/RasterValues.h"
@@ -160,6 +161,7 @@ private:
   std::vector<double> interpolated(const SizeLattice& lattice, const Report& report)
   {
     std::vector<PixelPair> pixels;
+    pixels.reserve(std::size_t(lattice.columns()));
     for (int column = 0; column < lattice.columns(); ++column)
     {
       pixels.push_back(this->across(lattice.at(column, 0).x));
