@@ -201,14 +201,36 @@ TEST(SizeRules, DistanceIsThatOfBruteForce)
 {
   const Segments segments = randomSegments(40, domain, 5);
   const SizeFunction sizes = makeSizeFunction(withDistance(0.2, 0.15), segments, domain, 2, {});
-  forNodes(SizeLattice(domain, 0.1, manyNodes, PlaneKind::Projected),
-    [&, lattice = SizeLattice(domain, 0.1, manyNodes, PlaneKind::Projected)](
-      std::size_t, int column, int row)
+  const SizeLattice lattice(domain, 0.1, manyNodes, PlaneKind::Projected);
+  forNodes(lattice,
+    [&](std::size_t, int column, int row)
     {
       const Point2 node = lattice.at(column, row);
       const double exact = 0.2 + 0.15 * bruteDistance(node, segments, 1, 1);
       EXPECT_NEAR(exact, sizes.at(node), 1e-12);
     });
+}
+
+TEST(SizeRules, HugeAndTinyCoordinatesHaveSizes)
+{
+  const Segments segments = randomSegments(10, domain, 18);
+  SizeArguments arguments = withDistance(0.25, 0.15);
+  arguments.Gradation = 0.1;
+  const SizeFunction plain = makeSizeFunction(arguments, segments, domain, 1, {});
+  for (const double scale : { 0x1p-500, 0x1p500 })
+  {
+    Segments scaledSegments = segments;
+    for (auto& [from, to] : scaledSegments)
+    {
+      from = { from.x * scale, from.y * scale };
+      to = { to.x * scale, to.y * scale };
+    }
+    arguments.Least = 0.25 * scale;
+    const SizeFunction sizes =
+      makeSizeFunction(arguments, scaledSegments, scaled(domain, scale), 1, {});
+    EXPECT_NEAR(plain.at({ 1, 7 }), sizes.at({ scale, 7 * scale }) / scale, 1e-12);
+    EXPECT_NEAR(plain.at({ 8, 3 }), sizes.at({ 8 * scale, 3 * scale }) / scale, 1e-12);
+  }
 }
 
 TEST(SizeRules, DistanceInDegreesUsesTheCosine)
