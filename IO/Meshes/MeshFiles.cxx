@@ -283,6 +283,12 @@ bool writeTetrahedra(const std::string& path, PointTable points, const std::int3
   return writeGrid(path, points, Cells{ ids, tetrahedra, 4 }, neighbors, options);
 }
 
+bool holdsTriangles(const std::string& path)
+{
+  const Opener opener = openerOf(path, Use::Triangles);
+  return opener == Opener::Adcirc || (opener == Opener::Vtk && holdsVtkTriangles(path));
+}
+
 bool holdsTetrahedra(const std::string& path)
 {
   if (isOpenedBy(path, Opener::Npy))

@@ -90,6 +90,10 @@ struct TriangleMesh
 /// .vtk, .ply ... whose cells are all triangles). The ids are not checked. Throws IOError.
 VTKTIPPIO_EXPORT TriangleMesh readMesh(const std::string& path);
 
+/// Whether a file is of triangles with points of its own: .14 or .grd (ADCIRC), or a VTK file whose
+/// first cell is a triangle. Throws IOError.
+VTKTIPPIO_EXPORT bool holdsTriangles(const std::string& path);
+
 /// Options of writeMesh().
 struct MeshOptions
 {
@@ -153,10 +157,11 @@ VTKTIPPIO_EXPORT bool holdsTetrahedra(const std::string& path);
 VTKTIPPIO_EXPORT StoredTetrahedra readTetrahedra(const std::string& path);
 
 /// @name Files that VTK reads
-/// readMesh(), holdsTetrahedra() and readTetrahedra() for such files. They throw IOError in a build
-/// without VTK.
+/// readMesh(), holdsTriangles(), holdsTetrahedra() and readTetrahedra() for such files. They throw
+/// IOError in a build without VTK.
 ///@{
 TriangleMesh readVtkTriangles(const std::string& path);
+bool holdsVtkTriangles(const std::string& path);
 bool holdsVtkTetrahedra(const std::string& path);
 StoredTetrahedra readVtkTetrahedra(const std::string& path);
 ///@}
