@@ -145,17 +145,19 @@ private:
     tile.Centre = Box2{ low, high }.center();
     tile.UnitX = this->unitX(middle);
     tile.Reach = std::hypot((high.x - low.x) / 2 * tile.UnitX, (high.y - low.y) / 2 * this->UnitY);
-    const auto [least, most] =
-      std::minmax({ this->unitX(tile.Row), tile.UnitX, this->unitX(tile.RowEnd - 1) });
-    tile.Ratio = most / least;
+    double least = tile.UnitX;
+    double most = tile.UnitX;
     for (int row = tile.Row; row < tile.RowEnd; ++row)
     {
+      least = std::min(least, this->unitX(row));
+      most = std::max(most, this->unitX(row));
       for (int column = tile.Column; column < tile.ColumnEnd; ++column)
       {
         const double size = this->Sizes[this->Nodes.index(column, row)];
         tile.Most = std::max(tile.Most, (size - this->Least) / this->PerStep);
       }
     }
+    tile.Ratio = most / least;
     return tile;
   }
 
@@ -369,7 +371,10 @@ public:
   }
 
 private:
-  double* rowAt(int row) { return this->Sizes.data() + std::size_t(row) * std::size_t(Columns); }
+  double* rowAt(int row)
+  {
+    return this->Sizes.data() + std::size_t(row) * std::size_t(this->Columns);
+  }
 
   int Columns;
   int Rows;

@@ -235,18 +235,21 @@ TEST(SizeRules, HugeAndTinyCoordinatesHaveSizes)
 
 TEST(SizeRules, DistanceInDegreesUsesTheCosine)
 {
-  Segments segments = randomSegments(20, coast, 6);
-  const SizeLattice lattice(coast, 20000, manyNodes, PlaneKind::Geographic);
-  std::vector<double> sizes(lattice.nodes(), 90000);
-  limitByDistance(lattice, segments, 1000, 0.5, 2, {}, sizes);
-  forNodes(lattice,
-    [&](std::size_t node, int column, int row)
-    {
-      const Point2 p = lattice.at(column, row);
-      const double unitX = 111195 * std::cos(p.y * pi / 180);
-      const double exact = 1000 + 0.5 * bruteDistance(p, segments, unitX, 111195);
-      EXPECT_NEAR(std::min(exact, 90000.0), sizes[node], 1e-6);
-    });
+  for (const Box2& box : { coast, Box2{ { -5, -50 }, { 15, 75 } } })
+  {
+    const Segments segments = randomSegments(20, box, 6);
+    const SizeLattice lattice(box, 50000, manyNodes, PlaneKind::Geographic);
+    std::vector<double> sizes(lattice.nodes(), 900000);
+    limitByDistance(lattice, segments, 1000, 0.5, 2, {}, sizes);
+    forNodes(lattice,
+      [&](std::size_t node, int column, int row)
+      {
+        const Point2 p = lattice.at(column, row);
+        const double unitX = 111195 * std::cos(p.y * pi / 180);
+        const double exact = 1000 + 0.5 * bruteDistance(p, segments, unitX, 111195);
+        EXPECT_NEAR(std::min(exact, 900000.0), sizes[node], 1e-6);
+      });
+  }
 }
 
 TEST(SizeRules, InterpolatedDistanceIsWithinTheStatedError)
