@@ -87,9 +87,9 @@ public:
   ///@{
   /**
    * The files of points, read in this order as one input: .npy, text, .las, .laz, files of a GIS,
-   * ADCIRC grids, or any format that VTK reads. The name "uniform:COUNT" stands for COUNT uniformly
-   * distributed points in the unit square instead of a file. SetInputFileName() replaces all files
-   * by one.
+   * meshes of models, or any format that VTK reads. The name "uniform:COUNT" stands for COUNT
+   * uniformly distributed points in the unit square instead of a file. SetInputFileName() replaces
+   * all files by one.
    */
   vtkTIPPNameListMacro(InputFileName);
   ///@}

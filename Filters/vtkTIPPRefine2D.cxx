@@ -260,8 +260,7 @@ int vtkTIPPRefine2D::RequestData(
   vtkPolyData* const input = vtkPolyData::GetData(inputs[0]);
   vtkPolyData* const output = vtkPolyData::GetData(outputs);
   output->Initialize();
-  return tipp::triangulateReported(
-    this, nullptr, this->NumberOfThreads, "Meshing", input, outputs,
+  return tipp::triangulateReported(this, nullptr, this->NumberOfThreads, "Meshing", input, outputs,
     [&] { this->Execute(input, vtkPointSet::GetData(inputs[1]), output); }, {});
 }
 
@@ -271,8 +270,7 @@ tipp::MeshRequest vtkTIPPRefine2D::Request() const
   tipp::requireFinite({ { "MinimumAngle", this->MinimumAngle },
     { "MaximumArea", this->MaximumArea }, { "ShortestEdge", this->ShortestEdge } });
   tipp::MeshRequest request;
-  request.Crossings =
-    this->SplitCrossings ? tipp::CrossingRule::Split : tipp::CrossingRule::Refuse;
+  request.Crossings = this->SplitCrossings ? tipp::CrossingRule::Split : tipp::CrossingRule::Refuse;
   request.IsConvex = this->Convex != 0;
   request.HasValues = true;
   tipp::RefinementOptions& options = request.Refinement;
@@ -349,8 +347,7 @@ void vtkTIPPRefine2D::AddCells(
       const tipp::IdSegment& segment = refined.Segments[std::size_t(i)];
       ids[2 * std::size_t(i)] = std::int32_t(segment.A);
       ids[2 * std::size_t(i) + 1] = std::int32_t(segment.B);
-      numbers->SetValue(
-        i, segment.Constraint < 0 ? -1 : cells[std::size_t(segment.Constraint)]);
+      numbers->SetValue(i, segment.Constraint < 0 ? -1 : cells[std::size_t(segment.Constraint)]);
     }
     output->SetLines(tipp::takeCells(std::move(ids), 2));
   }

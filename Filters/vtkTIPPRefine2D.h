@@ -217,8 +217,8 @@ private:
 
   void Execute(vtkPolyData* input, vtkPointSet* sizes, vtkPolyData* output);
   tipp::MeshRequest Request() const;
-  void AddCells(tipp::PointsMesh& mesh, const std::vector<std::int64_t>& cells,
-    vtkPolyData* output) const;
+  void AddCells(
+    tipp::PointsMesh& mesh, const std::vector<std::int64_t>& cells, vtkPolyData* output) const;
 
   double MinimumAngle = 30;
   double MaximumArea = 0;

@@ -72,6 +72,11 @@ TriangleMesh readVtkTriangles(const std::string& path)
   refuseCells(path);
 }
 
+bool holdsVtkTriangles(const std::string& path)
+{
+  refuseCells(path);
+}
+
 bool holdsVtkTetrahedra(const std::string& path)
 {
   refuseCells(path);

@@ -61,9 +61,10 @@ public:
   }
 
   /// Calls visit(i) for boxes, nearest to the point first. visit() returns the distance up to which
-  /// boxes are still of interest; every nearer box is visited.
+  /// boxes are still of interest, `wanted` before the first call; every nearer box is visited.
   template <typename Visit>
-  void searchNear(const Point<D>& point, const Visit& visit) const
+  void searchNear(const Point<D>& point, const Visit& visit,
+    double wanted = std::numeric_limits<double>::infinity()) const
   {
     struct Child
     {
@@ -77,7 +78,6 @@ public:
     {
       stack[top++] = { 0, int(this->Levels.size()) - 1, 0 };
     }
-    double wanted = std::numeric_limits<double>::infinity();
     while (top > 0)
     {
       const Child at = stack[--top];

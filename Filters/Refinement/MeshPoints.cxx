@@ -4,8 +4,6 @@
 #include "Constraints/Insertion/TriangulateConstrained.h"
 #include "Parallel/ParallelFor.h"
 
-#include <string>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,6 +11,7 @@
 #include <iterator>
 #include <limits>
 #include <optional>
+#include <sstream>
 #include <stdexcept>
 #include <utility>
 
@@ -73,8 +72,10 @@ public:
       const double length = surface.Lengths[i];
       if (!(length > 0 && std::isfinite(length)))
       {
-        throw std::invalid_argument(
-          fmt::format("The size at point {} of {} is {}; give lengths above 0.", i, what, length));
+        std::ostringstream text;
+        text << "The size at point " << i << " of " << what << " is " << length
+             << "; give lengths above 0.";
+        throw std::invalid_argument(text.str());
       }
       least = std::min(least, length);
     }
@@ -346,8 +347,7 @@ PointsMesh meshPoints(
   const std::vector<CrossingPoint>& crossings = start.Constraints.Crossings;
   if (request.HasValues)
   {
-    std::transform(
-      crossings.begin(), crossings.end(), std::back_inserter(result.Blends), blendOf);
+    std::transform(crossings.begin(), crossings.end(), std::back_inserter(result.Blends), blendOf);
     AddedBlends(all.view(), result.Mesh)
       .append(start.Mesh.Ids32, threadCount(options.Threads), result.Blends);
   }

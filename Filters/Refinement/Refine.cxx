@@ -7,14 +7,13 @@
 #include "Refinement/RefinementRules.h"
 #include "Refinement/StartMesh.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <sstream>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -46,26 +45,31 @@ void append(const Items& from, Items& to)
   to.insert(to.end(), from.begin(), from.end());
 }
 
+/// Throws std::invalid_argument with a sentence of these parts unless `isValid`.
+template <typename... Parts>
+void require(bool isValid, const Parts&... parts)
+{
+  if (!isValid)
+  {
+    std::ostringstream text;
+    (text << ... << parts);
+    throw std::invalid_argument(text.str());
+  }
+}
+
 void requireValid(const RefinementOptions& options)
 {
-  const auto require = [](bool isValid, const std::string& problem)
-  {
-    if (!isValid)
-    {
-      throw std::invalid_argument(problem);
-    }
-  };
   require(options.MinimumAngle >= 0 && options.MinimumAngle <= RefinementOptions::LargestAngle,
-    fmt::format("The smallest angle must be between 0 and {} degrees; it is {}.",
-      RefinementOptions::LargestAngle, options.MinimumAngle));
-  require(options.LargestArea > 0,
-    fmt::format("The largest area must be above 0; it is {}.", options.LargestArea));
+    "The smallest angle must be between 0 and ", RefinementOptions::LargestAngle,
+    " degrees; it is ", options.MinimumAngle, ".");
+  require(
+    options.LargestArea > 0, "The largest area must be above 0; it is ", options.LargestArea, ".");
   require(options.ShortestEdge >= 0 && std::isfinite(options.ShortestEdge),
-    fmt::format("The shortest edge must be at least 0; it is {}.", options.ShortestEdge));
+    "The shortest edge must be at least 0; it is ", options.ShortestEdge, ".");
   for (const RefinementRegion& region : options.Regions)
   {
-    require(region.LargestArea > 0,
-      fmt::format("The largest area of a region must be above 0; it is {}.", region.LargestArea));
+    require(region.LargestArea > 0, "The largest area of a region must be above 0; it is ",
+      region.LargestArea, ".");
   }
 }
 
@@ -172,6 +176,12 @@ void Refinement::setRules()
   }
   // Rounding moves a point by 2^-53 of the largest coordinate, which must not matter for an edge.
   const double side = std::max(box.Max.x - box.Min.x, box.Max.y - box.Min.y);
+  // Sixth powers of lengths must not overflow, nor underflow for the shortest edges.
+  constexpr double largest = 1e45;
+  constexpr double smallest = 1e-35;
+  require(box.isEmpty() || (side >= smallest && box.largest() <= largest),
+    "A domain with a longest side of ", side, " and a largest coordinate of ", box.largest(),
+    " cannot be refined; scale the coordinates to between ", smallest, " and ", largest, ".");
   this->Rules.ShortestEdge = this->Options.ShortestEdge > 0
     ? this->Options.ShortestEdge
     : std::max(std::ldexp(side, -36), std::ldexp(box.largest(), -44));

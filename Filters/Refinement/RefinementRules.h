@@ -143,7 +143,7 @@ public:
   }
 
   /// Whether a thin triangle cannot be improved: its shortest edge joins two input segments that
-  /// meet at a sharp angle, at equal distance from there. So it is where shells around that point
+  /// meet at less than 60 degrees, at equal distance from there. So it is where shells around that point
   /// cut them.
   bool isForced(
     const RefinementMesh& mesh, const RefinementMesh::Triangle& triangle, int shortest) const
@@ -161,14 +161,15 @@ public:
     const InputSegment& t = mesh.Segments[std::size_t(RefinementMesh::segmentNumber(originB))];
     for (std::size_t i = 0; i < 2; ++i)
     {
-      if (s.IsSharp[i] && (s.Ids[i] == t.Ids[0] || s.Ids[i] == t.Ids[1]))
+      if (s.Ids[i] == t.Ids[0] || s.Ids[i] == t.Ids[1])
       {
         const Point2 u = mesh.Points[std::size_t(a)] - s.Ends[i];
         const Point2 v = mesh.Points[std::size_t(b)] - s.Ends[i];
         const double x = u.x * u.x + u.y * u.y;
         const double y = v.x * v.x + v.y * v.y;
+        const double product = u.x * v.x + u.y * v.y;
         constexpr double equal = 1.002;
-        return x < equal * y && y < equal * x;
+        return x < equal * y && y < equal * x && product > 0 && 4 * product * product > x * y;
       }
     }
     return false;

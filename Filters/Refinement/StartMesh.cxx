@@ -4,13 +4,12 @@
 #include "Arrays/FindNeighbors.h"
 #include "Predicates/ExactPredicates.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <sstream>
 #include <stdexcept>
 #include <vector>
 
@@ -106,9 +105,10 @@ public:
       const std::size_t start = this->find(points, regions[r].Seed);
       if (start == this->IsInside.size())
       {
-        throw std::invalid_argument(
-          fmt::format("The point ({}, {}) of region {} is in no triangle of the domain.",
-            regions[r].Seed.x, regions[r].Seed.y, r));
+        std::ostringstream text;
+        text << "The point (" << regions[r].Seed.x << ", " << regions[r].Seed.y << ") of region "
+             << r << " is in no triangle of the domain.";
+        throw std::invalid_argument(text.str());
       }
       const auto enter = [&](std::size_t t)
       { return this->IsInside[t] && std::exchange(result[t], std::uint32_t(r + 1)) != r + 1; };

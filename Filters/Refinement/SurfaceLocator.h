@@ -35,9 +35,8 @@ struct PointBlend
     double sum = 0;
     for (std::size_t i = 0; i < 3; ++i)
     {
-      sum += i == main || this->Weights[i] == 0
-        ? 0
-        : this->Weights[i] * (valueOf(this->Ids[i]) - base);
+      sum +=
+        i == main || this->Weights[i] == 0 ? 0 : this->Weights[i] * (valueOf(this->Ids[i]) - base);
     }
     return base + sum;
   }

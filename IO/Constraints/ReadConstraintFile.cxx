@@ -6,6 +6,7 @@
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
 #include "Files/TextFile.h"
+#include "Models/TriangleFiles.h"
 #include "Points/Longitudes.h"
 #include "Points/ReadPoints.h"
 #ifdef TIPP_HAVE_GDAL
@@ -31,74 +32,25 @@ using Edge = std::array<std::int64_t, 2>;
     path, "holds no lines or polygons, so it would have no effect; give a file that does.");
 }
 
-constexpr const char* triangleFile = "a file of Triangle";
-
-void nextRow(NumberRows& rows, std::size_t fields, const char* what)
-{
-  rows.next(fields, what);
-  for (std::size_t field = 0; field < rows.fields(); ++field)
-  {
-    rows.number(field); // also checks the fields that are not used
-  }
-}
-
-/// Reads a row whose first field is the number of rows that follow. `what` names this number in
-/// messages.
-std::int64_t nextCount(NumberRows& rows, const char* what)
-{
-  nextRow(rows, 1, what);
-  const std::int64_t count = rows.integer(0);
-  if (count < 0 || count > rows.remainingLines())
-  {
-    rows.fail("announces " + std::to_string(count) + " lines, but the file has fewer.");
-  }
-  return count;
-}
-
-/// The vertices of a file, numbered from 0 or 1 there.
-struct Vertices
-{
-  std::vector<double> XY;
-  std::int64_t First = 0;
-};
-
-Vertices readVertices(NumberRows& rows)
-{
-  Vertices vertices;
-  const std::int64_t count = nextCount(rows, "the number of vertices");
-  for (std::int64_t i = 0; i < count; ++i)
-  {
-    nextRow(rows, 3, "a vertex");
-    vertices.First = i == 0 ? rows.integer(0) : vertices.First;
-    if (rows.integer(0) != vertices.First + i || vertices.First < 0 || vertices.First > 1)
-    {
-      rows.fail("numbers a vertex otherwise than from 0 or 1 on, one after the other.");
-    }
-    vertices.XY.push_back(rows.number(1));
-    vertices.XY.push_back(rows.number(2));
-  }
-  return vertices;
-}
-
 /// A .poly file of Shewchuk's Triangle (https://www.cs.cmu.edu/~quake/triangle.poly.html):
 /// vertices, segments and holes; later lines are ignored. If the file has no vertices, they are
 /// read from the .node file of the same name. Throws IOError.
 ConstraintTable readPolyFile(const std::string& path)
 {
-  NumberRows rows(path, triangleFile, '#');
-  Vertices vertices = readVertices(rows);
+  NumberRows rows(path, triangleFileKind, '#');
+  TriangleVertices vertices = readTriangleVertices(rows);
   if (vertices.XY.empty())
   {
-    NumberRows nodes(path.substr(0, path.rfind('.')) + ".node", triangleFile, '#');
-    vertices = readVertices(nodes);
+    NumberRows nodes(triangleFileBeside(path, ".node"), triangleFileKind, '#');
+    vertices = readTriangleVertices(nodes);
   }
   const std::int64_t count = std::int64_t(vertices.XY.size() / 2);
   ConstraintTable table;
   table.XY = std::move(vertices.XY);
-  const std::int64_t segments = nextCount(rows, "the number of segments");
+  const std::int64_t segments = nextTriangleCount(rows, "the number of segments");
   for (std::int64_t i = 0; i < segments; ++i)
   {
-    nextRow(rows, 3, "a segment");
+    nextTriangleRow(rows, 3, "a segment");
     const std::int64_t a = rows.integer(1);
     const std::int64_t b = rows.integer(2);
     if (std::min(a, b) < vertices.First || std::max(a, b) - vertices.First >= count)
@@ -108,10 +60,10 @@ ConstraintTable readPolyFile(const std::string& path)
     table.Edges.push_back({ a - vertices.First, b - vertices.First });
   }
   table.PolygonBegin = table.Edges.size();
-  const std::int64_t holes = nextCount(rows, "the number of holes");
+  const std::int64_t holes = nextTriangleCount(rows, "the number of holes");
   for (std::int64_t i = 0; i < holes; ++i)
   {
-    nextRow(rows, 3, "a hole");
+    nextTriangleRow(rows, 3, "a hole");
     table.Holes.push_back(rows.number(1));
     table.Holes.push_back(rows.number(2));
   }

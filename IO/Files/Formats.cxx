@@ -20,7 +20,7 @@ constexpr unsigned vtkRead = Use::Points | Use::Constraints | Use::Triangles;
 // clang-format off
 /// The formats. An extension may be in several rows, if it is opened differently for each use. The
 /// order is that of lists in messages.
-constexpr std::array<Format, 26> formats = { {
+constexpr std::array<Format, 32> formats = { {
   // Extensions, others, opener, uses, drivers of GDAL, help
   { ".poly", "", Opener::Triangle, Use::Constraints, "", "" },
   { ".tif", ".tiff", Opener::GeoTiff, Use::Rasters | Use::WritesRasters, "GTiff", "" },
@@ -52,6 +52,15 @@ constexpr std::array<Format, 26> formats = { {
       Use::WritesTriangles, "", "" },
   { ".grd", "", Opener::Adcirc, Use::Points | Use::Constraints | Use::Triangles, "", "ADCIRC" },
   { "", ".grd", Opener::Adcirc, Use::WritesTriangles, "", "" },
+  { ".gr3", "", Opener::Adcirc, Use::Points | Use::Constraints | Use::Triangles |
+      Use::WritesTriangles, "", "SCHISM" },
+  { ".2dm", "", Opener::Sms, Use::Points | Use::Triangles | Use::WritesTriangles, "", "SMS" },
+  { ".msh", "", Opener::Gmsh, Use::Points | Use::Triangles | Use::WritesTriangles, "",
+    "Gmsh in ASCII" },
+  { ".node", "", Opener::Triangle, Use::Points | Use::Triangles | Use::WritesTriangles, "",
+    "Triangle; the first attribute is z" },
+  { ".ele", "", Opener::Triangle, Use::Triangles, "", "" },
+  { "", ".ele", Opener::Triangle, Use::WritesTriangles, "", "" },
   { ".vts .vtr .pvtp .pvtu .pvti .pvts .pvtr .vtk .ply .stl .obj", "", Opener::Vtk, vtkRead, "",
     "" },
   { ".asc", "", Opener::Gdal, Use::Rasters, "AAIGrid", "" },
@@ -97,20 +106,17 @@ struct Kind
   const char* Command; ///< what to do; with FILE as the file's name
 };
 
+constexpr const char* flatten = "convert it, as with 'tipp flatten FILE -o mesh'.";
 constexpr const char* meshio = "convert it, as with 'meshio convert FILE out.vtu'.";
 
 constexpr std::array<Kind, 10> kinds = { {
-  { ".14 .grd", "an ADCIRC grid", "convert it, as with 'tipp flatten FILE -o mesh'." },
+  { ".14 .grd", "an ADCIRC grid", flatten },
+  { ".gr3", "a SCHISM grid", flatten },
+  { ".2dm", "a mesh of SMS", flatten },
+  { ".msh", "a mesh of Gmsh", flatten },
+  { ".node .ele", "a file of Triangle", flatten },
   { ".ex2 .exo .e", "an Exodus file", meshio },
-  // meshio reads only TetGen's files, in space.
-  { ".node", "a file of TetGen or Triangle",
-    "take the points of one in the plane, as with \"awk 'NR > 1 {print $2, $3, $4}' FILE > "
-    "points.xyz\", and convert one in space, as with 'meshio convert FILE out.vtu'." },
-  { ".ele", "a file of TetGen or Triangle", meshio },
-  { ".msh", "a file of Gmsh", meshio },
   { ".xml", "a mesh of DOLFIN or other XML", meshio },
-  { ".2dm", "a mesh of SMS",
-    "take its points, as with \"awk '/^ND/ {print $3, $4, $5}' FILE > points.xyz\"." },
   { ".med", "a mesh of Salome", meshio },
   { ".nc .nc4 .cdf", "a NetCDF file",
     "give a text file, such as ADCIRC's ASCII output, or convert a raster, as with "

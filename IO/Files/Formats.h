@@ -38,16 +38,18 @@ enum class Opener
   CompressedText, ///< of the text formats
   Gdal,
   GeoTiff,
+  Gmsh,
   Las,
   Npy,
   Pieces, ///< a partitioned mesh
+  Sms,
   Text,
-  Triangle,
+  Triangle, ///< the files of Shewchuk's program
   Vtk
 };
 
 /// A row of the table of formats. To add a format, add a row in Formats.cxx; a new Opener also
-/// needs a case in openFilePoints(), readMesh(), writeMesh(), createRaster() or
+/// needs a case in openFilePoints(), readModelMesh() or readMesh(), writeMesh(), createRaster() or
 /// readConstraintFile(), according to its uses.
 struct Format
 {

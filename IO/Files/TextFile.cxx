@@ -427,15 +427,29 @@ NumberRows::NumberRows(const std::string& path, std::string kind, char comment)
 
 void NumberRows::next(std::size_t fields, const char* what)
 {
+  if (!this->nextIfAny())
+  {
+    this->fail(std::string("the file ends before ") + what + "; copy it again.");
+  }
+  this->require(fields, what);
+}
+
+bool NumberRows::nextIfAny()
+{
   std::string_view line;
   do
   {
     if (!this->Lines.next(line))
     {
-      this->fail(std::string("the file ends before ") + what + "; copy it again.");
+      return false;
     }
     splitFields(this->Comment ? line.substr(0, line.find(this->Comment)) : line, ' ', this->Row);
   } while (this->Comment && this->Row.empty());
+  return true;
+}
+
+void NumberRows::require(std::size_t fields, const char* what) const
+{
   if (this->Row.size() < fields)
   {
     this->fail(

@@ -92,11 +92,17 @@ public:
 
   /// Reads the next row, which must have at least `fields` fields; `what` is for errors.
   void next(std::size_t fields, const char* what);
+  /// Reads the next row with any number of fields; returns false at the end of the file.
+  bool nextIfAny();
+  /// Throws IOError if the row has less than `fields` fields; `what` is for the message.
+  void require(std::size_t fields, const char* what) const;
   std::size_t fields() const { return this->Row.size(); }
+  std::string_view text(std::size_t field) const { return this->Row[field]; }
   double number(std::size_t field) const;
   std::int64_t integer(std::size_t field) const;
   /// An upper bound of the number of lines after the row.
   std::int64_t remainingLines() const { return this->Total - this->Lines.lineNumber(); }
+  std::int64_t lineNumber() const { return this->Lines.lineNumber(); }
 
   [[noreturn]] void fail(const std::string& problem) const;
 

@@ -117,6 +117,10 @@ struct FlatContent
 VTKTIPPIO_EXPORT bool writeFlatMesh(
   const std::string& path, const FlatContent& content, const std::function<bool()>& aborted = {});
 
+/// Converts a mesh that readModelMesh() reads, with its values at nodes as point data and its
+/// regions as the cell data "Region". Throws IOError.
+VTKTIPPIO_EXPORT FlatContent flattenModel(const std::string& path);
+
 /// Converts an ADCIRC grid (AdcircGrid) with the point data "depth" and, for each file of values at
 /// its nodes (fort.63, fort.64, maxele.63 ...), point data named after the file without extension;
 /// "fort.63" and "fort.64" are kept as they are. Several steps become an array that varies in time;

@@ -40,10 +40,17 @@ namespace tipp
   X(GDALGetDriverByName)                                                                           \
   X(GDALGetGeoTransform)                                                                           \
   X(GDALGetProjectionRef)                                                                          \
+  X(GDALGetRasterBand)                                                                             \
+  X(GDALGetRasterCount)                                                                            \
+  X(GDALGetRasterDataType)                                                                         \
+  X(GDALGetRasterNoDataValue)                                                                      \
+  X(GDALGetRasterOffset)                                                                           \
+  X(GDALGetRasterScale)                                                                            \
   X(GDALGetRasterXSize)                                                                            \
   X(GDALGetRasterYSize)                                                                            \
   X(GDALGetSpatialRef)                                                                             \
   X(GDALOpenEx)                                                                                    \
+  X(GDALRasterIO)                                                                                  \
   X(GDALSetCacheMax64)                                                                             \
   X(GDALSetGeoTransform)                                                                           \
   X(GDALSetMetadataItem)                                                                           \

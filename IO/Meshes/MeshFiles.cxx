@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Meshes/MeshFiles.h"
 
-#include "Adcirc/AdcircGrid.h"
 #include "Arrays/FindNeighbors.h"
 #include "Arrays/Scalar.h"
 #include "Files/Formats.h"
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
 #include "Files/WriteVtkXml.h"
+#include "Meshes/TextMeshes.h"
+#include "Models/ModelMesh.h"
+#include "Models/TriangleFiles.h"
 #include "Npy/NpyFile.h"
 #include "Points/ReadPoints.h"
 
@@ -80,14 +82,14 @@ TriangleMesh readMesh(const std::string& path)
   {
     case Opener::Npy:
       return { readNpyIds(path, 3, "triangles"), {}, {} };
-    case Opener::Adcirc:
-    {
-      AdcircGrid grid = readAdcircGrid(path);
-      return { std::move(grid.Triangles), std::move(grid.XY), {} };
-    }
     case Opener::Vtk:
       return readVtkTriangles(path);
     default:
+      if (isModelMesh(path))
+      {
+        ModelMesh mesh = readModelMesh(path, ModelPart::Triangles);
+        return { std::move(mesh.Triangles), std::move(mesh.XY), {} };
+      }
       refuseKind(path,
         "has no extension that tells a kind of mesh file; use " +
           listFormats(Use::Triangles, " or one of VTK's") + ".");
@@ -157,9 +159,14 @@ XmlSection pointData(const PointTable& points, const MeshOptions& options)
   return section;
 }
 
-XmlSection cellData(const std::vector<std::int64_t>& neighbors, std::size_t corners)
+XmlSection cellData(const std::vector<std::int64_t>& neighbors, std::size_t corners,
+  const std::vector<std::int64_t>& regions)
 {
   XmlSection section{ "CellData", {}, "" };
+  if (!regions.empty())
+  {
+    section.Arrays.push_back(xmlArray("Region", regions.data(), regions.size()));
+  }
   if (!neighbors.empty())
   {
     section.Arrays.push_back(
@@ -195,7 +202,7 @@ bool writePolyData(const std::string& path, const PointTable& points, const Cell
   const XmlPiece piece{ "PolyData",
     { { "NumberOfPoints", points.size() }, { "NumberOfVerts", 0 }, { "NumberOfLines", 0 },
       { "NumberOfStrips", 0 }, { "NumberOfPolys", cells.Count } },
-    { pointData(points, options), cellData(neighbors, cells.Corners),
+    { pointData(points, options), cellData(neighbors, cells.Corners, options.Regions),
       { "Points", { pointsArray(points) }, "" }, cellSection("Polys", cells) } };
   return writeXmlPiece(path, options.Before, piece, options.Aborted);
 }
@@ -213,9 +220,33 @@ bool writeGrid(const std::string& path, const PointTable& points, const Cells<Id
     computedXmlArray<std::uint8_t>("types", cells.Count, [type](std::size_t) { return type; }));
   const XmlPiece piece{ "UnstructuredGrid",
     { { "NumberOfPoints", points.size() }, { "NumberOfCells", cells.Count } },
-    { pointData(points, options), cellData(neighbors, cells.Corners),
+    { pointData(points, options), cellData(neighbors, cells.Corners, options.Regions),
       { "Points", { pointsArray(points) }, "" }, section } };
   return writeXmlPiece(path, options.Before, piece, options.Aborted);
+}
+
+} // namespace
+
+namespace
+{
+
+/// The function that writes the files of this opener; null if they are no text.
+bool (*textWriterOf(Opener opener))(
+  const std::string&, const PointTable&, TrianglesView, const MeshOptions&)
+{
+  switch (opener)
+  {
+    case Opener::Adcirc:
+      return &writeAdcircGrid;
+    case Opener::Sms:
+      return &writeSmsMesh;
+    case Opener::Gmsh:
+      return &writeGmshMesh;
+    case Opener::Triangle:
+      return &writeTriangleFiles;
+    default:
+      return nullptr;
+  }
 }
 
 } // namespace
@@ -235,10 +266,9 @@ bool writeMesh(const std::string& path, const PointTable& points, TrianglesView 
     return triangles.withIds(
       [&](const auto* ids) { return writeNpy(path, ids, triangles.size(), 3, options); });
   }
-  if (opener == Opener::Adcirc)
+  if (const auto writer = textWriterOf(opener))
   {
-    return writeAdcircGrid(
-      path, points, triangles, options.AdcircLike, options.Before, options.Aborted);
+    return writer(path, points, triangles, options);
   }
   return triangles.withIds(
     [&](const auto* ids)
@@ -252,6 +282,28 @@ bool writeMesh(const std::string& path, const PointTable& points, TrianglesView 
       return extensionOf(path) == ".vtp" ? writePolyData(path, points, cells, neighbors, options)
                                          : writeGrid(path, points, cells, neighbors, options);
     });
+}
+
+std::vector<std::string> filesOfMesh(const std::string& path, bool hasSegments)
+{
+  std::vector<std::string> files{ path };
+  const auto add = [&](const char* extension)
+  {
+    if (extensionOf(path) != extension)
+    {
+      files.push_back(triangleFileBeside(path, extension));
+    }
+  };
+  if (isOpenedBy(path, Opener::Triangle))
+  {
+    add(".node");
+    add(".ele");
+    if (hasSegments)
+    {
+      add(".poly");
+    }
+  }
+  return files;
 }
 
 std::size_t requireElevation(const PointTable& points, const std::string& path)
@@ -281,6 +333,12 @@ bool writeTetrahedra(const std::string& path, PointTable points, const std::int3
   }
   points.Columns[requireElevation(points, path)].Name = "z"; // makes it the third coordinate
   return writeGrid(path, points, Cells{ ids, tetrahedra, 4 }, neighbors, options);
+}
+
+bool holdsTriangles(const std::string& path)
+{
+  const Opener opener = openerOf(path, Use::Triangles);
+  return isModelMesh(path) || (opener == Opener::Vtk && holdsVtkTriangles(path));
 }
 
 bool holdsTetrahedra(const std::string& path)

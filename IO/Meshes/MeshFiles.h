@@ -2,14 +2,12 @@
 #ifndef tippMeshFiles_h
 #define tippMeshFiles_h
 
-#include "Files/PendingOutput.h"
+#include "Meshes/MeshOptions.h"
 #include "Points/ReadPoints.h"
 #include "vtkTIPPIOModule.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,45 +21,6 @@ namespace tipp
 {
 
 struct Piece;
-
-/// A view of triangles in the caller's memory: three consecutive point ids each, of 32 or 64 bits.
-class TrianglesView
-{
-public:
-  TrianglesView() = default;
-  TrianglesView(const std::int32_t* ids, std::size_t triangles)
-    : Ids32(ids)
-    , Count(triangles)
-  {
-  }
-  TrianglesView(const std::int64_t* ids, std::size_t triangles)
-    : Ids64(ids)
-    , Count(triangles)
-  {
-  }
-
-  std::size_t size() const { return this->Count; }
-
-  std::int64_t id(std::size_t triangle, int corner) const
-  {
-    const std::size_t at = 3 * triangle + std::size_t(corner);
-    // If there is a triangle, one of the two pointers is set.
-    return this->Ids32 ? this->Ids32[at]
-                       : this->Ids64[at]; // NOLINT(clang-analyzer-core.NullDereference)
-  }
-
-  /// Returns work(ids) for the pointer to the ids, of whichever size.
-  template <typename Work>
-  auto withIds(const Work& work) const
-  {
-    return this->Ids32 ? work(this->Ids32) : work(this->Ids64);
-  }
-
-private:
-  const std::int32_t* Ids32 = nullptr;
-  const std::int64_t* Ids64 = nullptr;
-  std::size_t Count = 0;
-};
 
 /// The cell array of cells across facets.
 constexpr const char* neighborIdsName = "NeighborIds";
@@ -86,42 +45,29 @@ struct TriangleMesh
   std::vector<std::int64_t> Neighbors; ///< three per triangle, if the file has NeighborIds
 };
 
-/// Reads triangles from .npy (m x 3 integers), .14 or .grd (ADCIRC) or a VTK file (.vtp, .vtu,
-/// .vtk, .ply ... whose cells are all triangles). The ids are not checked. Throws IOError.
+/// Reads triangles from .npy (m x 3 integers), a mesh of a model (see readModelMesh()) or a VTK
+/// file
+/// (.vtp, .vtu, .vtk, .ply ... whose cells are all triangles). The ids of .npy files are not
+/// checked. Throws IOError.
 VTKTIPPIO_EXPORT TriangleMesh readMesh(const std::string& path);
 
-/// Options of writeMesh().
-struct MeshOptions
-{
-  /// One point id per point, written as the point array "RepresentativePointId"; empty: no such
-  /// array.
-  std::vector<std::int64_t> Representatives;
-  /// Adds the cell array "NeighborIds": for each corner of a triangle the index of the triangle
-  /// opposite to it, or -1.
-  bool Neighbors = false;
-  /// An ADCIRC grid whose nodes are the first points; an ADCIRC file that is written keeps its
-  /// title, node numbers and boundaries. Empty: none.
-  std::string AdcircLike;
-  /// What may be replaced, as for PendingFile.
-  std::optional<PathState> Before;
-  /// Called once all is written under a temporary name; returning true discards it.
-  std::function<bool()> Aborted;
-};
+/// Whether a file is of triangles with points of its own: .14 or .grd (ADCIRC), or a VTK file whose
+/// first cell is a triangle. Throws IOError.
+VTKTIPPIO_EXPORT bool holdsTriangles(const std::string& path);
 
 /// Writes triangles by the path's extension: .npy (m x 3 int64 point ids; points are not written),
 /// .vtp or .vtu (appended raw binary: all points, the column named z as third coordinate or else 0,
-/// the other columns as point data), or .14, .grd (an ADCIRC grid, see writeAdcircGrid). The file
-/// appears only when it is complete. Returns false if Aborted returned true; throws IOError.
+/// the other columns as point data), or as text for models (.14, .grd, .gr3, .2dm, .msh, .node or
+/// .ele: see Meshes/TextMeshes.h). The file appears only when it is complete. Returns false if
+/// Aborted returned true; throws IOError.
 VTKTIPPIO_EXPORT bool writeMesh(const std::string& path, const PointTable& points,
   TrianglesView triangles, const MeshOptions& options = {});
 
-/// Writes points and triangles as an ADCIRC grid. The depth of a node is the column depth, else the
-/// negated elevation, else 0. `like` is the path of a grid whose nodes are the first points; its
-/// title, node numbers and boundary lists are kept. If it is empty, nodes are numbered from 1 and
-/// there are no boundaries. Returns false if `aborted` returned true; throws IOError.
-bool writeAdcircGrid(const std::string& path, const PointTable& points, TrianglesView triangles,
-  const std::string& like, const std::optional<PathState>& before,
-  const std::function<bool()>& aborted);
+/// The files that belong together: for a file of Triangle (.node, .ele or .poly) the .node and .ele
+/// files, with `hasSegments` also the .poly file, and the path itself; otherwise the path alone.
+/// writeMesh() writes these files if it writes `path`. `hasSegments`: whether MeshOptions::Segments
+/// are given.
+VTKTIPPIO_EXPORT std::vector<std::string> filesOfMesh(const std::string& path, bool hasSegments);
 
 /// The index of a table's column that is the third coordinate: named z, Z or elevation. Throws
 /// IOError, with the file's name `path`, if there is none.
@@ -153,10 +99,11 @@ VTKTIPPIO_EXPORT bool holdsTetrahedra(const std::string& path);
 VTKTIPPIO_EXPORT StoredTetrahedra readTetrahedra(const std::string& path);
 
 /// @name Files that VTK reads
-/// readMesh(), holdsTetrahedra() and readTetrahedra() for such files. They throw IOError in a build
-/// without VTK.
+/// readMesh(), holdsTriangles(), holdsTetrahedra() and readTetrahedra() for such files. They throw
+/// IOError in a build without VTK.
 ///@{
 TriangleMesh readVtkTriangles(const std::string& path);
+bool holdsVtkTriangles(const std::string& path);
 bool holdsVtkTetrahedra(const std::string& path);
 StoredTetrahedra readVtkTetrahedra(const std::string& path);
 ///@}

@@ -242,6 +242,12 @@ std::vector<std::int64_t> cellIdsOf(vtkDataSet* data, int type, const std::strin
   return all;
 }
 
+/// The type of the first cell; VTK_EMPTY_CELL without cells.
+int firstTypeOf(vtkDataSet* data)
+{
+  return data->GetNumberOfCells() > 0 ? data->GetCellType(0) : VTK_EMPTY_CELL;
+}
+
 /// The data set's array NeighborIds; empty unless it has one component per corner of a cell.
 std::vector<std::int64_t> neighborsOf(vtkDataSet* data, int corners)
 {
@@ -264,10 +270,14 @@ TriangleMesh readVtkTriangles(const std::string& path)
   return { std::move(ids), std::move(pointsOf(data).XY), neighborsOf(data, 3) };
 }
 
+bool holdsVtkTriangles(const std::string& path)
+{
+  return firstTypeOf(readDataSet(path)) == VTK_TRIANGLE;
+}
+
 bool holdsVtkTetrahedra(const std::string& path)
 {
-  const vtkSmartPointer<vtkDataSet> data = readDataSet(path);
-  return data->GetNumberOfCells() > 0 && data->GetCellType(0) == VTK_TETRA;
+  return firstTypeOf(readDataSet(path)) == VTK_TETRA;
 }
 
 StoredTetrahedra readVtkTetrahedra(const std::string& path)

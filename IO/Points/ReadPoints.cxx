@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Points/ReadPoints.h"
 
-#include "Adcirc/AdcircGrid.h"
 #include "Files/Formats.h"
 #include "Files/IOError.h"
 #include "Files/TextFile.h"
+#include "Models/ModelMesh.h"
 #include "Npy/NpyFile.h"
 #include "Points/Longitudes.h"
 
@@ -411,12 +411,15 @@ PointTable readNpyPoints(const std::string& path, const PointOptions& options, i
   return table;
 }
 
-PointTable readAdcircPoints(const std::string& path)
+PointTable readNodes(const std::string& path)
 {
-  AdcircGrid grid = readAdcircNodes(path);
+  ModelMesh mesh = readModelMesh(path, ModelPart::Nodes);
   PointTable table;
-  table.XY = std::move(grid.XY);
-  table.Columns.push_back({ "depth", std::move(grid.Depth) });
+  table.XY = std::move(mesh.XY);
+  for (ModelMesh::Column& column : mesh.Columns)
+  {
+    table.Columns.push_back({ column.Name, std::move(column.Values) });
+  }
   return table;
 }
 
@@ -436,14 +439,14 @@ PointTable readWhole(const std::string& path, const PointOptions& options)
         : "has no number of points after the colon, such as uniform:1000000.");
   }
   const Opener opener = openerOf(path, Use::Points);
-  if (opener != Opener::Adcirc && opener != Opener::Vtk)
+  if (opener == Opener::None || (opener != Opener::Vtk && !isModelMesh(path)))
   {
     refuseKind(path,
       "has no extension that tells a kind of point file; use " +
         listFormats(Use::Points, " or one of VTK's") + ".");
   }
   requireNoChoice(path, options);
-  return opener == Opener::Vtk ? readVtkPoints(path) : readAdcircPoints(path);
+  return opener == Opener::Vtk ? readVtkPoints(path) : readNodes(path);
 }
 
 } // namespace

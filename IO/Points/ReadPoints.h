@@ -259,7 +259,7 @@ struct PointOptions
 };
 
 /// Reads points by the file's extension (Files/Formats.h). Of VTK's formats, a column for each
-/// component of point data; of ADCIRC grids nodes and depth. Throws IOError.
+/// component of point data; of meshes of models the nodes with their values. Throws IOError.
 VTKTIPPIO_EXPORT PointTable readPoints(const std::string& path, const PointOptions& options = {});
 
 /// Reads the points of several files, in their order. Throws IOError.

@@ -6,12 +6,20 @@
 #include "Files/IOError.h"
 #include "Gdal/GdalLibrary.h"
 #include "Raster/RasterFile.h"
+#include "Raster/RasterValues.h"
 #include "Raster/ReadRaster.h"
 
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
+#include <cstdint>
+#include <iterator>
+#include <limits>
+#include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace tipp
@@ -145,30 +153,120 @@ void convertGeoTiff(const std::string& from, const std::string& to,
   }
 }
 
-RasterInfo readWithGdal(const std::string& path)
+namespace
 {
-  const GdalDataSet data = openWithGdal(path, GDAL_OF_RASTER);
+
+GdalDataSet openWithGrid(const std::string& path)
+{
+  GdalDataSet data = openWithGdal(path, GDAL_OF_RASTER);
   if (!data)
   {
     fail(path, "cannot be read as a raster");
   }
+  return data;
+}
+
+RasterGrid gridOf(GDALDatasetH data, const std::string& path)
+{
   double transform[6];
-  if (gdal().GDALGetGeoTransform(data.get(), transform) != CE_None || transform[2] != 0 ||
-    transform[4] != 0 || !(transform[1] > 0) || !(transform[5] < 0))
+  if (gdal().GDALGetGeoTransform(data, transform) != CE_None || transform[2] != 0 ||
+    transform[4] != 0 || !(transform[1] > 0) || !(transform[5] < 0) ||
+    !std::all_of(
+      std::begin(transform), std::end(transform), [](double x) { return std::isfinite(x); }))
   {
     refuseGrid(path);
   }
-  RasterInfo info;
-  RasterGrid& grid = info.Grid;
-  grid.Columns = gdal().GDALGetRasterXSize(data.get());
-  grid.Rows = gdal().GDALGetRasterYSize(data.get());
+  RasterGrid grid;
+  grid.Columns = gdal().GDALGetRasterXSize(data);
+  grid.Rows = gdal().GDALGetRasterYSize(data);
   grid.Pixel = { transform[1], -transform[5] };
   grid.West = transform[0];
   grid.South = gridPosition(transform[3], transform[5], 2 * grid.Rows);
   grid.North = transform[3];
+  return grid;
+}
+
+class GdalValues : public RasterValues
+{
+public:
+  GdalValues(const std::string& path, GdalDataSet data)
+    : RasterValues(gridOf(data.get(), path))
+    , Path(path)
+    , Data(std::move(data))
+  {
+    const int bands = gdal().GDALGetRasterCount(this->Data.get());
+    if (bands != 1)
+    {
+      throw IOError(path,
+        "has " + std::to_string(bands) +
+          " bands; give a raster of one, as 'gdal_translate -b 1 FILE one.tif' makes it.");
+    }
+    this->Band = gdal().GDALGetRasterBand(this->Data.get(), 1);
+    int isSet = 0;
+    const double noData = gdal().GDALGetRasterNoDataValue(this->Band, &isSet);
+    this->NoData = isSet != 0 ? std::make_optional(noData) : std::nullopt;
+    this->IsSingle = gdal().GDALGetRasterDataType(this->Band) == GDT_Float32;
+    const double scale = gdal().GDALGetRasterScale(this->Band, &isSet);
+    this->Scale = isSet != 0 ? scale : 1;
+    const double offset = gdal().GDALGetRasterOffset(this->Band, &isSet);
+    this->Offset = isSet != 0 ? offset : 0;
+  }
+
+  void read(const RasterWindow& window, double* values) override
+  {
+    const int columns = int(window.Columns);
+    const int rows = int(window.Rows);
+    gdal().CPLErrorReset();
+    // GDAL counts rows from the north.
+    if (gdal().GDALRasterIO(this->Band, GF_Read, int(window.Column),
+          int(this->grid().Rows - window.Row - window.Rows), columns, rows, values, columns, rows,
+          GDT_Float64, 0, 0) != CE_None)
+    {
+      fail(this->Path, "cannot be read");
+    }
+    for (std::int64_t low = 0, high = window.Rows - 1; low < high; ++low, --high)
+    {
+      std::swap_ranges(values + low * window.Columns, values + (low + 1) * window.Columns,
+        values + high * window.Columns);
+    }
+    std::transform(values, values + window.Columns * window.Rows, values,
+      [this](double value) { return this->valueOf(value); });
+  }
+
+private:
+  double valueOf(double stored) const
+  {
+    // A file of 32 bits may give a mark with more digits than its pixels have.
+    const bool isMissing = this->NoData &&
+      (stored == *this->NoData || (this->IsSingle && float(stored) == float(*this->NoData)));
+    return isMissing ? std::numeric_limits<double>::quiet_NaN()
+                     : stored * this->Scale + this->Offset;
+  }
+
+  std::string Path;
+  GdalDataSet Data;
+  GDALRasterBandH Band = nullptr; ///< owned by Data
+  std::optional<double> NoData;
+  bool IsSingle = false; ///< whether pixels are float32
+  double Scale = 1;
+  double Offset = 0;
+};
+
+} // namespace
+
+RasterInfo readWithGdal(const std::string& path)
+{
+  const GdalDataSet data = openWithGrid(path);
+  RasterInfo info;
+  info.Grid = gridOf(data.get(), path);
   const char* const crs = gdal().GDALGetProjectionRef(data.get());
   info.Crs.Text = crs ? crs : "";
   return info;
+}
+
+std::unique_ptr<RasterValues> openRasterValues(const std::string& path)
+{
+  return std::make_unique<GdalValues>(path, openWithGrid(path));
 }
 
 } // namespace tipp

@@ -2,6 +2,7 @@
 // Replaces what needs GDAL, in a build without it.
 #include "Crs/WriteGeoKeys.h"
 #include "Files/IOError.h"
+#include "Raster/RasterValues.h"
 #include "Raster/ReadRaster.h"
 
 namespace tipp
@@ -17,6 +18,13 @@ RasterInfo readWithGdal(const std::string& path)
   throw IOError(path,
     "is no GeoTIFF that says where its pixels are, and this tipp was built without GDAL, which "
     "reads other rasters; convert it, as with 'gdal_translate FILE out.tif'.");
+}
+
+std::unique_ptr<RasterValues> openRasterValues(const std::string& path)
+{
+  throw IOError(path,
+    "is a raster, whose values tipp reads with GDAL, and this tipp was built without it; convert "
+    "it to points, as with 'gdal_translate FILE out.xyz'.");
 }
 
 void requireConversion(const RasterDescription& description, const std::string& path)

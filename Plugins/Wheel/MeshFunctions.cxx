@@ -102,8 +102,7 @@ nb::dict meshArrays(const InputArray& points, const InputArray& pairs, std::size
   }
   std::vector<std::string> warnings;
   const ThreadLimit limit(request.Refinement.Threads);
-  PointsMesh mesh =
-    withoutLock([&] { return meshPoints(viewOf(points), request, warnings); });
+  PointsMesh mesh = withoutLock([&] { return meshPoints(viewOf(points), request, warnings); });
   reporter.finish();
   nb::dict result;
   result["warnings"] = warnings;

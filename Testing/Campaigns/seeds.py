@@ -276,6 +276,26 @@ def adcirc():
             ).encode()
 
 
+def sms():
+    return ("MESH2D\n" + "".join(f"E3T {i + 1} {a + 1} {b + 1} {c + 1} 1\n" for i, (a, b, c) in enumerate(TRIANGLES)) +
+            "".join(f"ND {i + 1} {x} {y} {z}\n" for i, (x, y, z) in enumerate(POINTS))).encode()
+
+
+def gmsh():
+    """A mesh of Gmsh, version 4.1."""
+    return (f"$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n0 0 1 0\n1 0 0 0 9 9 0 1 4 0\n$EndEntities\n$Nodes\n"
+            f"1 {len(POINTS)} 1 {len(POINTS)}\n2 1 0 {len(POINTS)}\n" +
+            "".join(f"{i + 1}\n" for i in range(len(POINTS))) + "".join(f"{x} {y} {z}\n" for x, y, z in POINTS) +
+            f"$EndNodes\n$Elements\n1 {len(TRIANGLES)} 1 {len(TRIANGLES)}\n2 1 2 {len(TRIANGLES)}\n" +
+            "".join(f"{i + 1} {a + 1} {b + 1} {c + 1}\n" for i, (a, b, c) in enumerate(TRIANGLES)) +
+            "$EndElements\n").encode()
+
+
+def nodes_of_triangle():
+    return (f"{len(POINTS)} 2 1 0\n" +
+            "".join(f"{i + 1} {x} {y} {z}\n" for i, (x, y, z) in enumerate(POINTS))).encode()
+
+
 def table(separator, header):
     rows = [header] if header else []
     return "\n".join(rows + [separator.join(map(str, p)) for p in POINTS] + [""]).encode()
@@ -295,7 +315,8 @@ def meshes():
     """The contents of files with points and cells, by name."""
     files = {"ascii.vtp": vtp("ascii"), "raw.vtp": vtp("raw"), "points.ply": ply(), "points.stl": stl(), "points.obj": obj(),
              "polyhedral.vtu": vtu(POLYHEDRAL, "ascii"), "polyhedral.vtk": legacy_grid(POLYHEDRAL, False, "4.2"),
-             "solids.vtu": vtu(SOLIDS, "ascii"), "solids.vtk": legacy_grid(SOLIDS, True, "4.2"), "fort.14": adcirc()}
+             "solids.vtu": vtu(SOLIDS, "ascii"), "solids.vtk": legacy_grid(SOLIDS, True, "4.2"), "fort.14": adcirc(),
+             "hgrid.gr3": adcirc(), "mesh.2dm": sms(), "mesh.msh": gmsh(), "points.node": nodes_of_triangle()}
     for mode in ("ascii", "base64", "zlib", "raw", "encoded"):
         files[f"{mode}.vtu"] = vtu(SURFACE, mode)
         files[f"volume-{mode}.vtu"] = vtu(VOLUME, mode)

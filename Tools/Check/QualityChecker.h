@@ -33,7 +33,7 @@ struct ListedTriangle
 };
 
 /// A refined mesh, what it was made from, and what it must fulfil.
-struct RefinedMesh
+struct CheckedMesh
 {
   std::vector<double> XY;              ///< x and y of each point
   std::vector<std::int64_t> Triangles; ///< three indices of points each
@@ -120,7 +120,7 @@ struct QualityReport
 /// Figures such as LeastAngle and the angles of listed triangles are computed in doubles, whose
 /// errors are far below 1e-6 degrees; no verdict but that on listed angles depends on them. Throws
 /// std::invalid_argument if MinAngle is no such angle.
-QualityReport checkQuality(const RefinedMesh& mesh);
+QualityReport checkQuality(const CheckedMesh& mesh);
 
 } // namespace tipp
 

@@ -38,8 +38,8 @@ namespace
 {
 
 constexpr const char* meshFormats =
-  "The triangles: .npy (m x 3 integers), .14, .grd, a VTK file or a partitioned mesh; or "
-  "tetrahedra: .npy (m x 4 integers), .vtu or a partitioned mesh";
+  "The triangles: .npy (m x 3 integers), .14, .grd, .gr3, .2dm, .msh, .node or .ele, a VTK file or "
+  "a partitioned mesh; or tetrahedra: .npy (m x 4 integers), .vtu or a partitioned mesh";
 
 constexpr const char* footer =
   R"(The check is exact and computes no triangulation of its own. It requires: every edge is in

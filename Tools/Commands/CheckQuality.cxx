@@ -76,7 +76,7 @@ std::vector<ListedTriangle> readListed(const std::string& path)
 }
 
 /// Adds the points and the constraints' points, segments and holes.
-void readInput(const QualityArguments& arguments, RefinedMesh& mesh)
+void readInput(const QualityArguments& arguments, CheckedMesh& mesh)
 {
   if (!arguments.Points.empty())
   {
@@ -102,7 +102,7 @@ void readInput(const QualityArguments& arguments, RefinedMesh& mesh)
 }
 
 /// Reads the mesh. Throws IOError if it is none of triangles with points in one file.
-RefinedMesh readRefined(const QualityArguments& arguments)
+CheckedMesh readRefined(const QualityArguments& arguments)
 {
   std::error_code ignored;
   const char* const formats = "give the mesh with its points in one file: .vtp, .vtu or .14.";
@@ -121,7 +121,7 @@ RefinedMesh readRefined(const QualityArguments& arguments)
   {
     throw IOError(arguments.Mesh, fmt::format("has no points; {}", formats));
   }
-  RefinedMesh mesh;
+  CheckedMesh mesh;
   mesh.XY = std::move(read.XY);
   mesh.Triangles = std::move(read.Triangles);
   return mesh;
@@ -178,7 +178,7 @@ ConstraintTable readConstraintFiles(const std::vector<std::string>& paths, int w
 
 int checkQualityOfFiles(const QualityArguments& arguments)
 {
-  RefinedMesh mesh = readRefined(arguments);
+  CheckedMesh mesh = readRefined(arguments);
   readInput(arguments, mesh);
   mesh.MinAngle = arguments.MinAngle;
   if (arguments.MaxArea)

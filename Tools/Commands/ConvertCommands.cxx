@@ -11,6 +11,7 @@
 #include "Files/RequireApart.h"
 #include "Flat/FlatMesh.h"
 #include "Flat/FlattenDataSet.h"
+#include "Models/ModelMesh.h"
 #include "Partitioning/PartitionMesh.h"
 #include "Ranks/Communicator.h"
 
@@ -29,7 +30,8 @@ namespace
 {
 
 constexpr const char* flattenFooter =
-  R"(INPUT   any VTK file, which is read into memory, or an ADCIRC grid (.14, .grd).
+  R"(INPUT   any VTK file, which is read into memory, or a mesh of ADCIRC (.14, .grd), SCHISM
+        (.gr3), SMS (.2dm), Gmsh (.msh) or Triangle (.node, .ele).
 FOLDER  cells.npy, points.npy, point_data/NAME.npy, cell_data/NAME.npy and, for
         values that vary in time, time.npy. It must not exist yet.
 
@@ -107,6 +109,10 @@ int runFlatten(const FlattenArguments& arguments)
   {
     return writeContent(arguments, flattenAdcirc(arguments.Input, arguments.Values));
   }
+  if (isModelMesh(arguments.Input))
+  {
+    return writeContent(arguments, flattenModel(arguments.Input));
+  }
   int code = Success;
   flattenVtkFile(arguments.Input,
     [&](const Flattened& flattened)
@@ -125,14 +131,14 @@ void addOptions(CLI::App& command, FlattenArguments& arguments)
   command.add_option("input", arguments.Input, "The mesh")->required();
   command.add_option("-o,--output", arguments.Output, "The folder to write")->required();
   command.add_option("--values", arguments.Values,
-    "With an ADCIRC grid: ASCII output at its nodes (fort.63, maxele.63 ...)");
+    "With a grid of ADCIRC or SCHISM: ASCII output at its nodes (fort.63, maxele.63 ...)");
 }
 
 int run(FlattenArguments& arguments)
 {
   if (!arguments.Values.empty() && !isOpenedBy(arguments.Input, Opener::Adcirc))
   {
-    throw CLI::ValidationError("--values needs an ADCIRC grid (.14, .grd)");
+    throw CLI::ValidationError("--values needs a grid of ADCIRC or SCHISM (.14, .grd, .gr3)");
   }
   return isIdleRank() ? Success : runFlatten(arguments);
 }

@@ -14,6 +14,7 @@
 #include "Files/Formats.h"
 #include "Files/IOError.h"
 #include "Files/PendingOutput.h"
+#include "Files/RequireApart.h"
 #include "Files/TextFile.h"
 #include "Files/WorkFolder.h"
 #include "InMemory/TriangulateTable.h"
@@ -113,7 +114,7 @@ PointTable readPointsFor(const DelaunayArguments& arguments)
   requireElevation(arguments.Duplicates, points.names());
   if (arguments.OutputIs == Opener::Npy)
   {
-    points.Columns.clear(); // only .vtp and .vtu store the columns
+    points.Columns.clear(); // the file has none
   }
   return points;
 }
@@ -149,6 +150,19 @@ bool writeResult(const DelaunayArguments& arguments, const PointTable& points,
   return writeMesh(arguments.Output, points, triangles, options);
 }
 
+/// Throws IOError if a file that is written or read beside a named one, such as x.ele beside
+/// x.node, would replace an input.
+void requireApartFromOthers(const std::string& output, const std::vector<std::string>& inputs)
+{
+  std::vector<std::string> allInputs;
+  for (const std::string& input : inputs)
+  {
+    const std::vector<std::string> files = filesOfMesh(input, false);
+    allInputs.insert(allInputs.end(), files.begin(), files.end());
+  }
+  requireApart(filesOfMesh(output, false), allInputs);
+}
+
 /// Throws IOError unless the output files can be written. Call it before the computation. Returns
 /// the state of the output's path; writeResult() refuses to replace anything else.
 PathState requireOutputs(const DelaunayArguments& arguments)
@@ -156,6 +170,7 @@ PathState requireOutputs(const DelaunayArguments& arguments)
   std::vector<std::string> inputs = arguments.Inputs;
   inputs.push_back(arguments.Constraints.Lines);
   inputs.push_back(arguments.Constraints.Boundary);
+  requireApartFromOthers(arguments.Output, inputs);
   return requireWritable(arguments.Output, arguments.Statistics, inputs);
 }
 
@@ -499,13 +514,15 @@ std::string describeInput()
 constexpr const char* footer =
   R"(OUTPUT  .vtp, .vtu (all points with their data, a column named z as third
         coordinate); .npy (m x 3 int64: point ids, counted from 0, counter-clockwise);
-        .14 (ADCIRC: node numbers and boundaries of a .14 input are kept; depth is the
-        column depth, else minus z); or .tipp: a partitioned mesh, made out of core.
-        Points and triangles may then be larger than memory: .npy, .las, text and files
-        of a GIS are read in blocks, other files as a whole.
+        .14, .gr3 (ADCIRC, SCHISM: node numbers and boundaries of such an input are
+        kept; depth is the column depth, else minus z); .2dm (SMS), .msh (Gmsh 2.2):
+        z is the elevation, else minus depth; .node or .ele (Triangle: both files are
+        written, with all columns as attributes, z first); or .tipp: a partitioned
+        mesh, made out of core. Points and triangles may then be larger than memory:
+        .npy, .las, text and files of a GIS are read in blocks, other files as a whole.
 
 CONSTRAINTS  .poly (Triangle); .csv, .txt (a segment per line: x and y of both ends, or
-        two ids of points counted from 0); .14, .grd (ADCIRC: the boundaries); any VTK
+        two ids of points counted from 0); .14, .grd, .gr3 (the boundaries); any VTK
         file: lines and polygons. Only triangles inside of counter-clockwise polygons
         are kept; clockwise ones are holes. Points that are not in INPUT are added.
         Constraints stay in memory, on each rank, unless the output is named .tipp.

@@ -363,7 +363,7 @@ def delaunay_file(
         the opposite edge or facet, -1 at the border.
     constraints
         A file of lines and polygons, whose edges become edges of the mesh. Only triangles inside of counter-clockwise
-        polygons are kept; clockwise ones are holes. .csv, .poly, .14, or any format that VTK or GDAL reads.
+        polygons are kept; clockwise ones are holes. .csv, .poly, .14, .gr3, or any format that VTK or GDAL reads.
     boundary
         A file of closed lines, which are constraints, too; triangles outside of them are removed.
     holes

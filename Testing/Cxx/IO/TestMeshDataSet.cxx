@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Meshes/MeshFiles.h"
+#include "TemporaryFolder.h"
+#include "Vtk/DataSets.h"
 
 #include "vtkCellArray.h"
+#include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkIdList.h"
 #include "vtkNew.h"
@@ -60,6 +63,25 @@ TEST(MeshDataSet, WithoutAColumnZPointsLieInThePlane)
   table.Columns.clear();
   const auto data = makePolyData(table, TrianglesView(Ids32, 2));
   EXPECT_EQ(0, data->GetPoint(2)[2]);
+}
+
+TEST(MeshDataSet, RegionsAreCellDataOfFiles)
+{
+  const tipp::test::TemporaryFolder folder;
+  MeshOptions options;
+  options.Regions = { 4, -1 };
+  options.Neighbors = true;
+  for (const char* const name : { "mesh.vtp", "mesh.vtu" })
+  {
+    const std::string path = folder.path(name);
+    ASSERT_TRUE(writeMesh(path, square(), TrianglesView(Ids32, 2), options));
+    const vtkSmartPointer<vtkDataSet> data = readDataSet(path);
+    vtkDataArray* const regions = data->GetCellData()->GetArray("Region");
+    ASSERT_NE(nullptr, regions) << name;
+    EXPECT_EQ(4, regions->GetTuple1(0));
+    EXPECT_EQ(-1, regions->GetTuple1(1));
+    EXPECT_NE(nullptr, data->GetCellData()->GetArray(neighborIdsName));
+  }
 }
 
 TEST(MeshDataSet, IdsOfEitherSizeMakeTheSameCells)

@@ -13,27 +13,27 @@
 namespace
 {
 
+using tipp::CheckedMesh;
 using tipp::checkQuality;
 using tipp::QualityReport;
-using tipp::RefinedMesh;
 using tipp::ThinReason;
 using tipp::check::Position;
 
 constexpr double degree = 0.017453292519943295; // in radians
 
 /// Four corners and the sides between them.
-RefinedMesh squareInput()
+CheckedMesh squareInput()
 {
-  RefinedMesh mesh;
+  CheckedMesh mesh;
   mesh.InputXY = { 0, 0, 4, 0, 4, 4, 0, 4 };
   mesh.Segments = { { 0, 1 }, { 1, 2 }, { 2, 3 }, { 3, 0 } };
   return mesh;
 }
 
 /// The square with a split point on each side and a point in the middle: eight halves of squares.
-RefinedMesh grid()
+CheckedMesh grid()
 {
-  RefinedMesh mesh = squareInput();
+  CheckedMesh mesh = squareInput();
   mesh.MinAngle = "45";
   mesh.XY = { 0, 0, 4, 0, 4, 4, 0, 4, 2, 0, 4, 2, 2, 4, 0, 2, 2, 2 };
   mesh.Triangles = { 0, 4, 8, 4, 1, 8, 1, 5, 8, 5, 2, 8, 2, 6, 8, 6, 3, 8, 3, 7, 8, 7, 0, 8 };
@@ -41,9 +41,9 @@ RefinedMesh grid()
 }
 
 /// The square with one point, so that the triangle 0 has two such angles, in degrees.
-RefinedMesh lowered(double angle)
+CheckedMesh lowered(double angle)
 {
-  RefinedMesh mesh = squareInput();
+  CheckedMesh mesh = squareInput();
   mesh.MinAngle = "30";
   mesh.XY = mesh.InputXY;
   mesh.XY.insert(mesh.XY.end(), { 2, 2 * std::tan(angle * degree) });
@@ -53,9 +53,9 @@ RefinedMesh lowered(double angle)
 
 /// Two segments that meet at 20 degrees, with split points at equal distances. The triangle 0 is
 /// between them, and the others have no angle below 40 degrees.
-RefinedMesh wedge()
+CheckedMesh wedge()
 {
-  RefinedMesh mesh;
+  CheckedMesh mesh;
   const double x = std::cos(20 * degree);
   const double y = std::sin(20 * degree);
   mesh.InputXY = { 0, 0, 4, 0, 3.9 * x, 3.9 * y };
@@ -68,9 +68,9 @@ RefinedMesh wedge()
 }
 
 /// A segment whose split points were split off again and again, in any order, and a point above it.
-RefinedMesh splitSegment(std::uint64_t seed)
+CheckedMesh splitSegment(std::uint64_t seed)
 {
-  RefinedMesh mesh;
+  CheckedMesh mesh;
   mesh.InputXY = { 1e6 / 3, 4e6 / 7, 1.1e6 / 3, 4.3e6 / 7, 1e6 / 3, 4.3e6 / 7 };
   mesh.Segments = { { 0, 1 } };
   const auto at = [&mesh](std::size_t i) {
@@ -102,13 +102,13 @@ RefinedMesh splitSegment(std::uint64_t seed)
 
 /// Points on a lattice or anywhere, and segments between any two: they cross, overlap, and pass
 /// points.
-RefinedMesh crossingSegments(std::uint64_t seed)
+CheckedMesh crossingSegments(std::uint64_t seed)
 {
   std::mt19937_64 random(seed);
   const bool onLattice = seed % 2 == 0;
   const double origin = seed % 3 == 0 ? 0.0 : 1e5 / 3;
   std::uniform_real_distribution<double> anywhere(0, 8);
-  RefinedMesh mesh;
+  CheckedMesh mesh;
   for (int i = 0; i < 2 * 40; ++i)
   {
     const double part = anywhere(random);
@@ -133,7 +133,7 @@ RefinedMesh crossingSegments(std::uint64_t seed)
   return mesh;
 }
 
-void expectCorrect(const RefinedMesh& mesh)
+void expectCorrect(const CheckedMesh& mesh)
 {
   for (const std::string& fault : checkQuality(mesh).faults())
   {
@@ -142,7 +142,7 @@ void expectCorrect(const RefinedMesh& mesh)
 }
 
 /// Expects one fault, and these words in its sentence.
-void expectFault(const RefinedMesh& mesh, const std::string& words)
+void expectFault(const CheckedMesh& mesh, const std::string& words)
 {
   const std::vector<std::string> faults = checkQuality(mesh).faults();
   ASSERT_EQ(1u, faults.size()) << (faults.empty() ? "" : faults[1]);
@@ -151,7 +151,7 @@ void expectFault(const RefinedMesh& mesh, const std::string& words)
 
 TEST(QualityChecker, AcceptsARefinedSquare)
 {
-  RefinedMesh mesh = grid();
+  CheckedMesh mesh = grid();
   mesh.MaxArea = [](Position) { return 2.0; };
   expectCorrect(mesh);
 }
@@ -178,21 +178,21 @@ TEST(QualityChecker, RefusesAnAngleBelowTheBound)
 
 TEST(QualityChecker, RefusesAnAreaAboveTheLimit)
 {
-  RefinedMesh mesh = grid();
+  CheckedMesh mesh = grid();
   mesh.MaxArea = [](Position) { return std::nextafter(2.0, 0.0); };
   expectFault(mesh, "8 triangles are above the limit on areas; the first is triangle 0");
 }
 
 TEST(QualityChecker, EvaluatesTheAreaLimitAtCentroids)
 {
-  RefinedMesh mesh = grid();
+  CheckedMesh mesh = grid();
   mesh.MaxArea = [](Position p) { return p.x > 3 && p.y < 1.5 ? 1.9 : HUGE_VAL; };
   expectFault(mesh, "1 triangles are above the limit on areas; the first is triangle 2");
 }
 
 TEST(QualityChecker, RefusesALimitThatIsNotANumber)
 {
-  RefinedMesh mesh = grid();
+  CheckedMesh mesh = grid();
   mesh.MaxArea = [](Position) { return std::nan(""); };
   expectFault(mesh, "8 triangles are above the limit on areas");
 }
@@ -207,7 +207,7 @@ TEST(QualityChecker, AcceptsRoundedSplitPoints)
 
 TEST(QualityChecker, RefusesASplitPointMovedOutwards)
 {
-  RefinedMesh mesh = splitSegment(1);
+  CheckedMesh mesh = splitSegment(1);
   mesh.XY[101] -= 1e-5;
   const QualityReport report = checkQuality(mesh);
   EXPECT_EQ(1, report.LostSegments.Count);
@@ -217,14 +217,14 @@ TEST(QualityChecker, RefusesASplitPointMovedOutwards)
 /// Then the segment is outside of the mesh, and the mesh has a border that is no segment.
 TEST(QualityChecker, RefusesASplitPointMovedInwards)
 {
-  RefinedMesh mesh = splitSegment(1);
+  CheckedMesh mesh = splitSegment(1);
   mesh.XY[101] += 1e-5;
   EXPECT_EQ(2, checkQuality(mesh).OpenBorder.Count);
 }
 
 TEST(QualityChecker, RefusesASplitPointMovedInside)
 {
-  RefinedMesh mesh = grid();
+  CheckedMesh mesh = grid();
   mesh.Segments.push_back({ 0, 2 });
   mesh.XY[16] += 1e-9;
   const QualityReport report = checkQuality(mesh);
@@ -234,7 +234,7 @@ TEST(QualityChecker, RefusesASplitPointMovedInside)
 
 TEST(QualityChecker, AcceptsASegmentThatIsNotDelaunay)
 {
-  RefinedMesh mesh;
+  CheckedMesh mesh;
   mesh.InputXY = { 0, 0, 4, -1, 8, 0, 4, 1 };
   mesh.Segments = { { 0, 2 } };
   mesh.XY = mesh.InputXY;
@@ -246,7 +246,7 @@ TEST(QualityChecker, AcceptsASegmentThatIsNotDelaunay)
 
 TEST(QualityChecker, RefusesALostSegment)
 {
-  RefinedMesh mesh;
+  CheckedMesh mesh;
   mesh.InputXY = { 0, 0, 4, -1, 8, 0, 4, 1 };
   mesh.Segments = { { 0, 1 }, { 0, 2 } };
   mesh.XY = mesh.InputXY;
@@ -256,21 +256,21 @@ TEST(QualityChecker, RefusesALostSegment)
 
 TEST(QualityChecker, RefusesASegmentOfNoPoint)
 {
-  RefinedMesh mesh = grid();
+  CheckedMesh mesh = grid();
   mesh.Segments.push_back({ 0, 4 });
   expectFault(mesh, "1 segments are not chains of edges; the first is segment 4");
 }
 
 TEST(QualityChecker, AcceptsCrossingSegments)
 {
-  RefinedMesh mesh = grid();
+  CheckedMesh mesh = grid();
   mesh.Segments.insert(mesh.Segments.end(), { { 0, 2 }, { 1, 3 } });
   expectCorrect(mesh);
 }
 
 TEST(QualityChecker, AcceptsSegmentsOutsideOfTheMesh)
 {
-  RefinedMesh mesh = grid();
+  CheckedMesh mesh = grid();
   mesh.InputXY.insert(mesh.InputXY.end(), { 6, 0, 8, 1 });
   mesh.Segments.insert(mesh.Segments.end(), { { 4, 5 }, { 4, 2 } });
   expectCorrect(mesh);
@@ -278,7 +278,7 @@ TEST(QualityChecker, AcceptsSegmentsOutsideOfTheMesh)
 
 TEST(QualityChecker, RefusesASegmentThatRunsThroughTriangles)
 {
-  RefinedMesh mesh = grid();
+  CheckedMesh mesh = grid();
   mesh.InputXY.insert(mesh.InputXY.end(), { -2, 1, 6, 1.5 });
   mesh.Segments.push_back({ 4, 5 });
   expectFault(mesh, "1 segments are not chains of edges; the first is segment 4");
@@ -286,7 +286,7 @@ TEST(QualityChecker, RefusesASegmentThatRunsThroughTriangles)
 
 TEST(QualityChecker, RefusesALostPoint)
 {
-  RefinedMesh mesh = grid();
+  CheckedMesh mesh = grid();
   mesh.InputXY.insert(mesh.InputXY.end(), { 9, 9, 3, 3 }); // outside, and on an edge
   expectFault(
     mesh, "1 points of the input are inside of the mesh, but no vertices; the first is point 5");
@@ -294,28 +294,28 @@ TEST(QualityChecker, RefusesALostPoint)
 
 TEST(QualityChecker, RefusesAFilledHole)
 {
-  RefinedMesh mesh = grid();
+  CheckedMesh mesh = grid();
   mesh.Holes = { 9, 9, 3, 2.5 };
   expectFault(mesh, "1 points of holes are in a triangle; the first is hole 1");
 }
 
 TEST(QualityChecker, RefusesALostTriangle)
 {
-  RefinedMesh mesh = grid();
+  CheckedMesh mesh = grid();
   mesh.Triangles.erase(mesh.Triangles.begin(), mesh.Triangles.begin() + 3);
   expectFault(mesh, "2 border edges are neither on segments nor on the convex hull of the input");
 }
 
 TEST(QualityChecker, RefusesAMeshWithoutTriangles)
 {
-  RefinedMesh mesh = grid();
+  CheckedMesh mesh = grid();
   mesh.Triangles.clear();
   EXPECT_FALSE(checkQuality(mesh).isCorrect());
 }
 
 TEST(QualityChecker, RefusesTrianglesOfNoPoint)
 {
-  RefinedMesh mesh = grid();
+  CheckedMesh mesh = grid();
   mesh.Triangles[0] = 9;
   mesh.Triangles[4] = -1;
   EXPECT_EQ(2, checkQuality(mesh).Mesh.BadIds);
@@ -323,7 +323,7 @@ TEST(QualityChecker, RefusesTrianglesOfNoPoint)
 
 TEST(QualityChecker, RefusesTrianglesOfPointsThatAreNotFinite)
 {
-  RefinedMesh mesh = grid();
+  CheckedMesh mesh = grid();
   mesh.XY[16] = std::nan("");
   EXPECT_EQ(8, checkQuality(mesh).Mesh.BadIds);
 }
@@ -340,7 +340,7 @@ TEST(QualityChecker, AcceptsConstrainedTriangulations)
 
 TEST(QualityChecker, WithoutInputLeavesTheBorderUnchecked)
 {
-  RefinedMesh mesh = grid();
+  CheckedMesh mesh = grid();
   mesh.InputXY.clear();
   mesh.Segments.clear();
   mesh.Triangles.erase(mesh.Triangles.begin(), mesh.Triangles.begin() + 3);
@@ -349,14 +349,14 @@ TEST(QualityChecker, WithoutInputLeavesTheBorderUnchecked)
 
 TEST(QualityChecker, HullIsTheBorderOfPoints)
 {
-  RefinedMesh mesh = grid();
+  CheckedMesh mesh = grid();
   mesh.Segments.clear();
   expectCorrect(mesh);
 }
 
 TEST(QualityChecker, ExcusesInputAngles)
 {
-  RefinedMesh mesh = wedge();
+  CheckedMesh mesh = wedge();
   expectCorrect(mesh);
   mesh.MinAngle = "30";
   expectCorrect(mesh);
@@ -367,7 +367,7 @@ TEST(QualityChecker, AcceptsListedTriangles)
 {
   for (const ThinReason reason : { ThinReason::ShortestEdge, ThinReason::Rounding })
   {
-    RefinedMesh mesh = lowered(29.9);
+    CheckedMesh mesh = lowered(29.9);
     mesh.Listed = { { 0, 29.9000004, reason } };
     expectCorrect(mesh);
     EXPECT_EQ(1, checkQuality(mesh).Excused[std::size_t(reason)]);
@@ -376,7 +376,7 @@ TEST(QualityChecker, AcceptsListedTriangles)
 
 TEST(QualityChecker, AcceptsAListedInputAngle)
 {
-  RefinedMesh mesh = wedge();
+  CheckedMesh mesh = wedge();
   mesh.MinAngle = "21";
   mesh.Listed = { { 0, 20, ThinReason::InputAngle } };
   expectCorrect(mesh);
@@ -384,7 +384,7 @@ TEST(QualityChecker, AcceptsAListedInputAngle)
 
 TEST(QualityChecker, RefusesATriangleThatIsNotListed)
 {
-  RefinedMesh mesh = wedge();
+  CheckedMesh mesh = wedge();
   mesh.MinAngle = "21";
   mesh.Listed.emplace();
   expectFault(mesh, "1 triangles have an angle below 21 degrees and are not excused");
@@ -392,14 +392,14 @@ TEST(QualityChecker, RefusesATriangleThatIsNotListed)
 
 TEST(QualityChecker, RefusesAListedInputAngleThatIsNone)
 {
-  RefinedMesh mesh = lowered(29.9);
+  CheckedMesh mesh = lowered(29.9);
   mesh.Listed = { { 0, 29.9, ThinReason::InputAngle } };
   expectFault(mesh, "1 listed triangles are not between segments that meet below 60 degrees");
 }
 
 TEST(QualityChecker, RefusesAWrongListedAngle)
 {
-  RefinedMesh mesh = lowered(29.9);
+  CheckedMesh mesh = lowered(29.9);
   mesh.Listed = { { 0, 29.90001, ThinReason::Rounding } };
   expectFault(mesh, "1 listed triangles have another smallest angle; the first is triangle 0");
   mesh.Listed = { { 0, std::nan(""), ThinReason::Rounding } };
@@ -408,14 +408,14 @@ TEST(QualityChecker, RefusesAWrongListedAngle)
 
 TEST(QualityChecker, RefusesAListedTriangleAboveTheBound)
 {
-  RefinedMesh mesh = lowered(30.1);
+  CheckedMesh mesh = lowered(30.1);
   mesh.Listed = { { 0, 30.1, ThinReason::Rounding } };
   expectFault(mesh, "1 listed triangles have no angle below 30 degrees; the first is triangle 0");
 }
 
 TEST(QualityChecker, RefusesEntriesOfNoTriangle)
 {
-  RefinedMesh mesh = lowered(29.9);
+  CheckedMesh mesh = lowered(29.9);
   mesh.Listed = { { 0, 29.9, ThinReason::Rounding }, { 4, 20, ThinReason::Rounding },
     { -1, 20, ThinReason::Rounding }, { 0, 29.9, ThinReason::Rounding } };
   expectFault(mesh,
@@ -425,7 +425,7 @@ TEST(QualityChecker, RefusesEntriesOfNoTriangle)
 /// The shortest edge is on one side, although several segments have its ends.
 TEST(QualityChecker, OverlappingSegmentsAreNoInputAngle)
 {
-  RefinedMesh mesh = squareInput();
+  CheckedMesh mesh = squareInput();
   mesh.Segments.insert(mesh.Segments.end(), { { 0, 1 }, { 1, 0 } });
   mesh.MinAngle = "30";
   mesh.XY = { 0, 0, 4, 0, 4, 4, 0, 4, 1.9, 0, 2.1, 0, 2, 2 };
@@ -440,7 +440,7 @@ TEST(QualityChecker, IsExactForTinyAndHugeCoordinates)
 {
   for (const double scale : { 0x1p-1000, 0x1p-500, 0x1p500, 0x1p1000 })
   {
-    RefinedMesh mesh = grid();
+    CheckedMesh mesh = grid();
     for (std::vector<double>* const xy : { &mesh.XY, &mesh.InputXY })
     {
       for (double& coordinate : *xy)

@@ -110,6 +110,44 @@ TEST_F(TippFormats, AnAdcircGridCannotHaveArrays)
   }
 }
 
+TEST_F(TippFormats, MeshesOfModelsAreWrittenAndRead)
+{
+  this->Folder.file("points.csv", "x,y,z\n0,0,1\n1,0,-2.5\n1.5,1,4\n0,1,0\n");
+  std::string before = "points.csv";
+  for (const std::string name : { "a.gr3", "a.2dm", "a.msh", "a.node", "a.14" })
+  {
+    this->run({ "delaunay", before, "-o", name });
+    this->run({ "check", "points.csv", name });
+    this->run({ "flatten", name, "-o", name + "-flat" });
+    before = name;
+  }
+  this->run({ "check", "points.csv", "a.ele" });
+  EXPECT_NE(std::string::npos, this->content("a.14").find("\n2 1 0 2.5\n"));
+}
+
+TEST_F(TippFormats, ASchismGridKeepsItsBoundaries)
+{
+  this->Folder.file("hgrid.gr3",
+    std::string("A title\n1 4\n10 0 0 3.25\n20 4 0 -1\n40 4 4 0.1\n30 0 4 2\n1 3 10 20 40\n") +
+      boundaries);
+  this->run({ "delaunay", "hgrid.gr3", "-o", "out.gr3" });
+  EXPECT_NE(std::string::npos, this->content("out.gr3").find(boundaries));
+}
+
+TEST_F(TippFormats, AnInputIsNotReplacedByTheOtherFileOfAMesh)
+{
+  this->Folder.file("a.node", "3 2 0 0\n1 0 0\n2 1 0\n3 0 1\n");
+  this->Folder.file("b.node", "3 2 0 0\n1 0 0\n2 1 0\n3 0 1\n");
+  this->Folder.file("b.poly", "0 2 0 0\n1 0\n1 1 2\n0\n");
+  for (const Words& words : { Words{ "delaunay", "a.node", "-o", "a.ele" },
+         Words{ "delaunay", "a.node", "--constraints", "b.poly", "-o", "b.ele" } })
+  {
+    EXPECT_EQ(1, runTipp(this->Folder, words).ExitCode);
+  }
+  EXPECT_EQ(0U, this->content("a.node").find("3 2 0 0\n1 0 0\n"));
+  EXPECT_EQ(0U, this->content("b.node").find("3 2 0 0\n1 0 0\n"));
+}
+
 TEST_F(TippFormats, PointsComeFromTheStandardInput)
 {
   std::ofstream csv(this->Folder.path("points.csv"));
@@ -172,11 +210,7 @@ TEST_F(TippFormats, OtherKindsNameTheCommandThatConvertsThem)
 {
   const std::vector<std::pair<std::string, std::string>> kinds = {
     { "mesh.ex2", "'meshio convert mesh.ex2 out.vtu'" },
-    { "mesh.node", "'meshio convert mesh.node out.vtu'" },
-    { "plane.node", "\"awk 'NR > 1 {print $2, $3, $4}' plane.node > points.xyz\"" },
-    { "mesh.2dm", "\"awk '/^ND/ {print $3, $4, $5}' mesh.2dm > points.xyz\"" },
     { "fort.63.nc", "is a NetCDF file, which is not read here; give a text file" },
-    { "mesh.msh", "'meshio convert mesh.msh out.vtu'" },
     { "mesh.xml.gz",
       "'gunzip mesh.xml.gz', and convert it, as with 'meshio convert mesh.xml out.vtu'" },
   };

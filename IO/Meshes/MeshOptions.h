@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippMeshOptions_h
+#define tippMeshOptions_h
+
+#include "Adcirc/AdcircBoundaries.h"
+#include "Files/PendingOutput.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tipp
+{
+
+/// A view of triangles in the caller's memory: three consecutive point ids each, of 32 or 64 bits.
+class TrianglesView
+{
+public:
+  TrianglesView() = default;
+  TrianglesView(const std::int32_t* ids, std::size_t triangles)
+    : Ids32(ids)
+    , Count(triangles)
+  {
+  }
+  TrianglesView(const std::int64_t* ids, std::size_t triangles)
+    : Ids64(ids)
+    , Count(triangles)
+  {
+  }
+
+  std::size_t size() const { return this->Count; }
+
+  std::int64_t id(std::size_t triangle, int corner) const
+  {
+    const std::size_t at = 3 * triangle + std::size_t(corner);
+    // If there is a triangle, one of the two pointers is set.
+    return this->Ids32 ? this->Ids32[at]
+                       : this->Ids64[at]; // NOLINT(clang-analyzer-core.NullDereference)
+  }
+
+  /// Returns work(ids) for the pointer to the ids, of whichever size.
+  template <typename Work>
+  auto withIds(const Work& work) const
+  {
+    return this->Ids32 ? work(this->Ids32) : work(this->Ids64);
+  }
+
+private:
+  const std::int32_t* Ids32 = nullptr;
+  const std::int64_t* Ids64 = nullptr;
+  std::size_t Count = 0;
+};
+
+/// Options of writeMesh().
+struct MeshOptions
+{
+  /// One point id per point, written as the point array "RepresentativePointId"; empty: no such
+  /// array.
+  std::vector<std::int64_t> Representatives;
+  /// Adds the cell array "NeighborIds": for each corner of a triangle the index of the triangle
+  /// opposite to it, or -1.
+  bool Neighbors = false;
+  /// An ADCIRC grid whose nodes are the first points; an ADCIRC file that is written keeps its
+  /// title, node numbers and boundaries. Empty: none.
+  std::string AdcircLike;
+  /// The boundaries of a new ADCIRC or SCHISM grid, as node indices. Without AdcircLike only.
+  AdcircBoundaries Boundaries;
+  /// The region of each triangle: a material in .2dm, a physical group in .msh, an attribute in
+  /// .ele, the cell array "Region" in .vtp and .vtu. Empty: no regions.
+  std::vector<std::int64_t> Regions;
+  /// Edges of the mesh as pairs of point ids, which Triangle's .poly lists. Empty: no such file.
+  std::vector<std::array<std::int64_t, 2>> Segments;
+  /// What may be replaced, as for PendingFile.
+  std::optional<PathState> Before;
+  /// Called once all is written under a temporary name; returning true discards it.
+  std::function<bool()> Aborted;
+};
+
+} // namespace tipp
+
+#endif

@@ -1,0 +1,495 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "RefinementTesting.h"
+
+#include "RealData.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <random>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace
+{
+
+using namespace tipp;
+using namespace tipp::test;
+using Reason = TriangleOutside::Reason;
+
+constexpr double pi = 3.14159265358979323846;
+
+LineGraph square()
+{
+  LineGraph graph;
+  graph.addRectangle(0, 0, 1, 1);
+  return graph;
+}
+
+/// Segments of different lengths from a point, at equal angles, in a square.
+LineGraph fan(double degrees)
+{
+  LineGraph graph;
+  graph.addPoint(0.013, 0.007);
+  for (int i = 0; i * degrees < 350 && i < 8; ++i)
+  {
+    const double angle = (3.3 + i * degrees) * pi / 180;
+    const double length = 1 + 0.37 * std::sin(7.1 * i);
+    graph.addPoint(0.013 + length * std::cos(angle), 0.007 + length * std::sin(angle));
+    graph.addSegment(0, graph.points() - 1);
+  }
+  graph.addRectangle(-2, -2, 2, 2);
+  return graph;
+}
+
+/// Narrow teeth in a box, none of which touches it.
+LineGraph comb()
+{
+  LineGraph graph;
+  for (int i = 0; i < 40; ++i)
+  {
+    graph.addPoint(i * 0.05, 0);
+    graph.addPoint(i * 0.05 + 0.001 * (i + 1) / 40, 1);
+    graph.addSegment(2 * i, 2 * i + 1);
+  }
+  graph.addRectangle(-1, -1, 3, 2);
+  return graph;
+}
+
+LineGraph spiral()
+{
+  LineGraph graph;
+  for (int i = 0; i < 300; ++i)
+  {
+    const double angle = i * 0.1;
+    graph.addPoint(0.02 * angle * std::cos(angle), 0.02 * angle * std::sin(angle));
+    if (i > 0)
+    {
+      graph.addSegment(i - 1, i);
+    }
+  }
+  graph.addRectangle(-1, -1, 1, 1);
+  return graph;
+}
+
+/// Random points and segments between some of them, which cross.
+LineGraph randomGraph(std::uint64_t seed, int points, int segments)
+{
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> place(0, 1);
+  LineGraph graph;
+  for (int i = 0; i < points; ++i)
+  {
+    graph.addPoint(place(random), place(random));
+  }
+  for (int i = 0; i < segments; ++i)
+  {
+    graph.addSegment(
+      PointId(random() % std::uint64_t(points)), PointId(random() % std::uint64_t(points)));
+  }
+  graph.addRectangle(-0.5, -0.5, 1.5, 1.5);
+  return graph;
+}
+
+RefinementOptions withAngle(double angle, double area = std::numeric_limits<double>::infinity())
+{
+  RefinementOptions options;
+  options.MinimumAngle = angle;
+  options.LargestArea = area;
+  options.IsEnclosed = true;
+  options.Threads = 1;
+  return options;
+}
+
+TEST(Refine, KeepsTheBoundOnAnglesAndAreas)
+{
+  const LineGraph graph = square();
+  const Refined refined = refineGraph(graph, withAngle(30, 0.001));
+  EXPECT_GT(refined.Mesh.triangleCount(), 1000U);
+  EXPECT_LT(refined.Mesh.triangleCount(), 2500U);
+  EXPECT_TRUE(refined.Mesh.Outside.empty());
+  EXPECT_TRUE(isRight(graph, refined, "30", 0.001));
+}
+
+TEST(Refine, AddsNothingToAMeshThatIsGood)
+{
+  LineGraph graph;
+  graph.addPoint(0, 0);
+  graph.addPoint(1, 0);
+  graph.addPoint(0.5, 0.8);
+  graph.close(0);
+  const Refined refined = refineGraph(graph, withAngle(30));
+  EXPECT_EQ(refined.Mesh.AddedXY.size(), 0U);
+  EXPECT_EQ(refined.Mesh.triangleCount(), 1U);
+}
+
+TEST(Refine, FansOfSharpAnglesAreListed)
+{
+  for (const double degrees : { 1., 5., 10., 20., 30., 45., 59. })
+  {
+    const LineGraph graph = fan(degrees);
+    const Refined refined = refineGraph(graph, withAngle(30, 0.01));
+    EXPECT_TRUE(isRight(graph, refined, "30", 0.01)) << degrees;
+    for (const TriangleOutside& outside : refined.Mesh.Outside)
+    {
+      EXPECT_EQ(outside.Why, Reason::InputAngle) << degrees;
+    }
+    EXPECT_EQ(refined.Mesh.Outside.empty(), degrees > 40) << degrees;
+  }
+}
+
+TEST(Refine, CombsAndSpiralsKeepTheirSegments)
+{
+  for (const double angle : { 20., 30., 33. })
+  {
+    for (const LineGraph& graph : { comb(), spiral() })
+    {
+      const Refined refined = refineGraph(graph, withAngle(angle));
+      EXPECT_TRUE(isRight(graph, refined, std::to_string(int(angle)))) << angle;
+    }
+  }
+}
+
+TEST(Refine, CrossingSegmentsAreSplit)
+{
+  RefinementOptions options = withAngle(28);
+  options.ShortestEdge = 1e-4; // crossings may be arbitrarily close together
+  for (std::uint64_t seed = 1; seed <= 20; ++seed)
+  {
+    const LineGraph graph = randomGraph(seed, 12, 8);
+    EXPECT_TRUE(isRight(graph, refineGraph(graph, options), "28")) << seed;
+  }
+}
+
+TEST(Refine, IsTheSameForAnyNumberOfThreads)
+{
+  for (const LineGraph& graph : { comb(), randomGraph(7, 30, 12) })
+  {
+    RefinementOptions options = withAngle(30, 0.00004); // several blocks and rounds
+    options.ShortestEdge = 1e-4;
+    const Refined one = refineGraph(graph, options);
+    EXPECT_GT(one.Mesh.Statistics.Blocks, 10);
+    for (const int threads : { 2, 3, 8 })
+    {
+      options.Threads = threads;
+      EXPECT_TRUE(areSame(one, refineGraph(graph, options))) << threads;
+    }
+    EXPECT_TRUE(isRight(graph, one, "30", 0.00004));
+  }
+}
+
+TEST(Refine, HolesStayEmpty)
+{
+  LineGraph graph = square();
+  graph.addRectangle(0.4, 0.4, 0.6, 0.6);
+  const std::vector<Point2> holes{ { 0.5, 0.5 } };
+  const Refined refined = refineGraph(graph, withAngle(30, 0.002), holes);
+  EXPECT_TRUE(isRight(graph, refined, "30", 0.002, holes));
+}
+
+TEST(Refine, OnlyWhatSegmentsEncloseIsKept)
+{
+  LineGraph graph;
+  graph.addPoint(0, 0);
+  graph.addPoint(2, 0);
+  graph.addPoint(2, 2);
+  graph.addPoint(1, 0.5); // a dent
+  graph.addPoint(0, 2);
+  graph.close(0);
+  const auto areaOf = [](const Refined& refined)
+  {
+    double area = 0;
+    for (std::size_t t = 0; t < refined.Mesh.triangleCount(); ++t)
+    {
+      const std::int32_t* const v = refined.Mesh.Triangles.data() + 3 * t;
+      const auto x = [&](int i) { return refined.XY[2 * std::size_t(v[i])]; };
+      const auto y = [&](int i) { return refined.XY[2 * std::size_t(v[i]) + 1]; };
+      area += ((x(1) - x(0)) * (y(2) - y(0)) - (x(2) - x(0)) * (y(1) - y(0))) / 2;
+    }
+    return area;
+  };
+  RefinementOptions options = withAngle(25);
+  EXPECT_NEAR(areaOf(refineGraph(graph, options)), 2.5, 1e-12);
+  options.IsEnclosed = false;
+  EXPECT_NEAR(areaOf(refineGraph(graph, options)), 4, 1e-12);
+}
+
+TEST(Refine, RegionsHaveTheirAreas)
+{
+  LineGraph graph = square();
+  graph.addPoint(0.5, 0);
+  graph.addPoint(0.5, 1);
+  graph.addSegment(4, 5);
+  RefinementOptions options = withAngle(30, 0.01);
+  options.Regions = { { { 0.25, 0.5 }, 0.0005 }, { { 0.75, 0.5 } } };
+  const Refined refined = refineGraph(graph, options);
+  ASSERT_EQ(refined.Mesh.RegionOf.size(), refined.Mesh.triangleCount());
+  std::array<std::int64_t, 2> counts{};
+  for (std::size_t t = 0; t < refined.Mesh.triangleCount(); ++t)
+  {
+    const std::int32_t* const v = refined.Mesh.Triangles.data() + 3 * t;
+    double x = 0;
+    for (int i = 0; i < 3; ++i)
+    {
+      x += refined.XY[2 * std::size_t(v[i])] / 3;
+    }
+    const std::int32_t region = refined.Mesh.RegionOf[t];
+    ASSERT_EQ(region, x < 0.5 ? 0 : 1);
+    ++counts[std::size_t(region)];
+  }
+  EXPECT_GT(counts[0], 1000);
+  EXPECT_LT(counts[1], 400);
+  EXPECT_TRUE(isRight(graph, refined, "30", 0.01));
+}
+
+TEST(Refine, AreasFollowAFunction)
+{
+  const LineGraph graph = square();
+  RefinementOptions options = withAngle(30);
+  const auto limit = [](double x) { return 0.0001 + 0.01 * x * x; };
+  options.AreaAt = [&](Point2 p) { return limit(p.x); };
+  options.LeastArea = 0.0001;
+  const Refined refined = refineGraph(graph, options);
+  EXPECT_TRUE(refined.Mesh.Outside.empty());
+  EXPECT_TRUE(isRight(graph, refined, "30"));
+  for (std::size_t t = 0; t < refined.Mesh.triangleCount(); ++t)
+  {
+    const std::int32_t* const v = refined.Mesh.Triangles.data() + 3 * t;
+    const auto x = [&](int i) { return refined.XY[2 * std::size_t(v[i])]; };
+    const auto y = [&](int i) { return refined.XY[2 * std::size_t(v[i]) + 1]; };
+    const double area = ((x(1) - x(0)) * (y(2) - y(0)) - (x(2) - x(0)) * (y(1) - y(0))) / 2;
+    ASSERT_LE(area, limit((x(0) + x(1) + x(2)) / 3) * (1 + 1e-9));
+  }
+}
+
+TEST(Refine, AddedPointsKnowTheirConstraints)
+{
+  LineGraph graph = square();
+  graph.addPoint(0.2, 0.5);
+  graph.addPoint(0.8, 0.5);
+  graph.addSegment(4, 5); // the fifth constraint
+  const Refined refined = refineGraph(graph, withAngle(30, 0.001));
+  const std::size_t given = 2 * 6;
+  int on = 0;
+  for (std::size_t i = 0; i < refined.Mesh.AddedOn.size(); ++i)
+  {
+    const double x = refined.XY[given + 2 * i];
+    const double y = refined.XY[given + 2 * i + 1];
+    if (refined.Mesh.AddedOn[i] == 4)
+    {
+      ++on;
+      EXPECT_EQ(y, 0.5);
+    }
+    else if (refined.Mesh.AddedOn[i] < 0)
+    {
+      EXPECT_TRUE(x > 0 && x < 1 && y > 0 && y < 1);
+    }
+  }
+  EXPECT_GT(on, 5);
+  const auto chain = segmentsOf(refined.Mesh.Segments, 4, 5);
+  EXPECT_EQ(int(chain.size()), on + 1);
+}
+
+TEST(Refine, BorderAndSegmentsCanBeKept)
+{
+  LineGraph graph;
+  for (int i = 0; i < 40; ++i) // ten points on each side
+  {
+    const double along = i % 10 / 10.;
+    const std::array<double, 4> x{ along, 1, 1 - along, 0 };
+    const std::array<double, 4> y{ 0, along, 1, 1 - along };
+    graph.addPoint(x[std::size_t(i / 10)], y[std::size_t(i / 10)]);
+  }
+  graph.close(0);
+  graph.addPoint(0.2, 0.5);
+  graph.addPoint(0.8, 0.52);
+  graph.addSegment(40, 41);
+  const auto countOn = [](const Refined& refined, std::int64_t begin, std::int64_t end)
+  {
+    return std::count_if(refined.Mesh.AddedOn.begin(), refined.Mesh.AddedOn.end(),
+      [&](std::int64_t on) { return on >= begin && on < end; });
+  };
+  RefinementOptions options = withAngle(30, 0.001);
+  EXPECT_GT(countOn(refineGraph(graph, options), 0, 40), 0);
+  options.KeepsBorder = true;
+  const Refined border = refineGraph(graph, options);
+  EXPECT_EQ(countOn(border, 0, 40), 0);
+  EXPECT_GT(countOn(border, 40, 41), 0);
+  ASSERT_FALSE(border.Mesh.Outside.empty());
+  EXPECT_EQ(border.Mesh.Outside[0].Why, Reason::KeptSegments);
+  options.KeepsSegments = true;
+  EXPECT_EQ(countOn(refineGraph(graph, options), 0, 41), 0);
+}
+
+TEST(Refine, StopsAtTheLargestNumberOfPoints)
+{
+  const LineGraph graph = square();
+  RefinementOptions options = withAngle(30, 0.0001);
+  options.MostPoints = 1234;
+  options.Threads = 4;
+  const Refined refined = refineGraph(graph, options);
+  EXPECT_EQ(refined.Mesh.AddedXY.size() / 2, 1234U);
+  ASSERT_FALSE(refined.Mesh.Outside.empty());
+  EXPECT_EQ(refined.Mesh.Outside[0].Why, Reason::MostPoints);
+}
+
+TEST(Refine, NarrowGapsEndAtTheShortestEdge)
+{
+  LineGraph graph;
+  for (const double y : { 0., 1e-6 })
+  {
+    graph.addPoint(0, y);
+    graph.addPoint(1, y);
+    graph.addSegment(graph.points() - 2, graph.points() - 1);
+  }
+  graph.addRectangle(-1, -1, 2, 2);
+  RefinementOptions options = withAngle(30);
+  options.ShortestEdge = 1e-3;
+  const Refined refined = refineGraph(graph, options);
+  EXPECT_TRUE(isRight(graph, refined, "30"));
+  ASSERT_FALSE(refined.Mesh.Outside.empty());
+  EXPECT_EQ(refined.Mesh.Outside[0].Why, Reason::ShortestEdge);
+}
+
+TEST(Refine, FarFromTheOriginRoundingEndsIt)
+{
+  LineGraph graph = fan(20);
+  for (double& coordinate : graph.XY)
+  {
+    coordinate += 1e9;
+  }
+  const Refined refined = refineGraph(graph, withAngle(30, 0.01));
+  EXPECT_TRUE(isRight(graph, refined, "30", 0.01));
+}
+
+TEST(Refine, HugeAndTinyDomainsAreRefinedAlike)
+{
+  const Refined usual = refineGraph(square(), withAngle(30, 0.01));
+  for (const int exponent : { -100, 100 })
+  {
+    LineGraph graph = square();
+    for (double& coordinate : graph.XY)
+    {
+      coordinate = std::ldexp(coordinate, exponent);
+    }
+    const Refined refined = refineGraph(graph, withAngle(30, std::ldexp(0.01, 2 * exponent)));
+    EXPECT_EQ(refined.Mesh.triangleCount(), usual.Mesh.triangleCount()) << exponent;
+  }
+}
+
+TEST(Refine, ProgressCanStopIt)
+{
+  RefinementOptions options = withAngle(30, 0.0001);
+  options.Progress = [](double) { return false; };
+  const Refined refined = refineGraph(square(), options);
+  EXPECT_TRUE(refined.Mesh.Aborted);
+  EXPECT_EQ(refined.Mesh.triangleCount(), 0U);
+}
+
+TEST(Refine, ProgressGrowsToOne)
+{
+  RefinementOptions options = withAngle(30, 0.0001);
+  double last = 0;
+  options.Progress = [&](double done)
+  {
+    EXPECT_GE(done, last);
+    EXPECT_LE(done, 1);
+    last = done;
+    return true;
+  };
+  refineGraph(square(), options);
+  EXPECT_GT(last, 0.8);
+}
+
+TEST(Refine, OptionsOutOfRangeAreRefused)
+{
+  const auto refusal = [](const RefinementOptions& options) -> std::string
+  {
+    try
+    {
+      refineGraph(square(), options);
+    }
+    catch (const std::invalid_argument& error)
+    {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(
+    refusal(withAngle(35)), "The smallest angle must be between 0 and 34 degrees; it is 35.");
+  EXPECT_EQ(refusal(withAngle(30, -1)), "The largest area must be above 0; it is -1.");
+  RefinementOptions options = withAngle(30);
+  options.Regions = { { { 3, 3 } } };
+  EXPECT_EQ(refusal(options), "The point (3, 3) of region 0 is in no triangle of the domain.");
+  options = withAngle(30);
+  options.ShortestEdge = -1;
+  EXPECT_EQ(refusal(options), "The shortest edge must be at least 0; it is -1.");
+}
+
+TEST(Refine, NothingEnclosedGivesNoTriangles)
+{
+  LineGraph graph;
+  graph.addPoint(0, 0);
+  graph.addPoint(1, 0);
+  graph.addPoint(0, 1);
+  graph.addSegment(0, 1);
+  EXPECT_EQ(refineGraph(graph, withAngle(30)).Mesh.triangleCount(), 0U);
+}
+
+/// The border of a mesh in ADCIRC's format.
+LineGraph borderOf(const std::string& path)
+{
+  const AdcircMesh mesh = readAdcirc(path);
+  std::map<std::pair<std::int64_t, std::int64_t>, int> edges;
+  for (const auto& triangle : mesh.Elements)
+  {
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      ++edges[std::minmax<std::int64_t>(triangle[i], triangle[(i + 1) % 3])];
+    }
+  }
+  LineGraph graph;
+  std::map<std::int64_t, PointId> ids;
+  const auto idOf = [&](std::int64_t node)
+  {
+    const auto [found, isNew] = ids.emplace(node, graph.points());
+    if (isNew)
+    {
+      graph.addPoint(mesh.Nodes[2 * std::size_t(node)], mesh.Nodes[2 * std::size_t(node) + 1]);
+    }
+    return found->second;
+  };
+  for (const auto& [ends, count] : edges)
+  {
+    if (count == 1)
+    {
+      const PointId a = idOf(ends.first);
+      graph.addSegment(a, idOf(ends.second));
+    }
+  }
+  return graph;
+}
+
+TEST(Refine, TheWesternAtlanticIsRefinedExactly)
+{
+  TIPP_REQUIRE_REAL_DATA(path, "adcirc/ec95d/ec95d.grd");
+  const LineGraph graph = borderOf(path);
+  RefinementOptions options = withAngle(30, 0.02);
+  options.Threads = 2;
+  const Refined refined = refineGraph(graph, options);
+  EXPECT_GT(refined.Mesh.triangleCount(), 60000U);
+  EXPECT_LT(refined.Mesh.triangleCount(), 80000U);
+  EXPECT_TRUE(isRight(graph, refined, "30", 0.02));
+  for (const TriangleOutside& outside : refined.Mesh.Outside)
+  {
+    EXPECT_EQ(outside.Why, Reason::InputAngle);
+  }
+}
+
+} // namespace
