@@ -29,7 +29,7 @@ struct LengthSurface
 /// How points in memory are meshed.
 struct MeshRequest
 {
-  /// meshPoints() sets IsEnclosed, AreaAt and LeastArea.
+  /// meshPoints() sets IsEnclosed, and adds the limits below to AreaAt.
   RefinementOptions Refinement;
   const SourceConstraints* Source = nullptr; ///< null: none
   CrossingRule Crossings = CrossingRule::Split;
