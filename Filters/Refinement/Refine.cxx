@@ -289,7 +289,8 @@ bool Refinement::runLevel()
   std::size_t most = this->Options.MostPoints > 0 ? 1 : elements.size() + 1;
   for (bool isFirst = true; !elements.empty() && !this->StoppedEarly; isFirst = false)
   {
-    const std::vector<RefinementBlock> blocks = makeBlocks(this->Mesh, elements, most, !isFirst);
+    const std::vector<RefinementBlock> blocks =
+      makeBlocks(this->Mesh, elements, most, !isFirst, this->Threads);
     ++this->Statistics.Rounds;
     this->Statistics.Blocks += std::int64_t(blocks.size());
     const std::size_t before = elements.size();
@@ -356,42 +357,31 @@ Buffer<Index> Refinement::addPoints(RefinedMesh& result) const
     throw std::length_error("The mesh would have too many points.");
   }
   Buffer<Index> ids(std::size_t(mesh.PointEnd));
-  Index end = Index(given);
-  const auto forVertices = [&](const auto& visit)
+  result.AddedXY = Buffer<double>(2 * std::size_t(mesh.PointEnd)); // more than enough
+  std::size_t added = 0;
+  for (const Index first : mesh.PointGroups)
   {
-    for (const Index first : mesh.PointGroups)
+    for (Index i = first; i < first + RefinementMesh::PointsInGroup; ++i)
     {
-      for (Index vertex = first; vertex < first + RefinementMesh::PointsInGroup; ++vertex)
+      const auto vertex = std::size_t(i);
+      const Index origin = mesh.Origins[vertex];
+      if (RefinementMesh::isInput(origin))
       {
-        visit(std::size_t(vertex), mesh.Origins[std::size_t(vertex)]);
+        ids[vertex] = RefinementMesh::inputId(origin);
+      }
+      else if (origin != RefinementMesh::NoVertex)
+      {
+        ids[vertex] = Index(given + std::int64_t(added));
+        result.AddedXY[2 * added] = mesh.Points[vertex].x;
+        result.AddedXY[2 * added + 1] = mesh.Points[vertex].y;
+        result.AddedOn.push_back(RefinementMesh::isOnSegment(origin)
+            ? mesh.Segments[std::size_t(RefinementMesh::segmentNumber(origin))].Constraint
+            : -1);
+        ++added;
       }
     }
-  };
-  forVertices(
-    [&](std::size_t vertex, Index origin)
-    {
-      if (origin != RefinementMesh::NoVertex)
-      {
-        ids[vertex] = RefinementMesh::isInput(origin) ? RefinementMesh::inputId(origin) : end++;
-      }
-    });
-  const auto added = std::size_t(end) - std::size_t(given);
-  result.AddedXY = Buffer<double>(2 * added);
-  result.AddedOn.resize(added);
-  std::size_t i = 0;
-  forVertices(
-    [&](std::size_t vertex, Index origin)
-    {
-      if (origin != RefinementMesh::NoVertex && !RefinementMesh::isInput(origin))
-      {
-        result.AddedXY[2 * i] = mesh.Points[vertex].x;
-        result.AddedXY[2 * i + 1] = mesh.Points[vertex].y;
-        result.AddedOn[i] = RefinementMesh::isOnSegment(origin)
-          ? mesh.Segments[std::size_t(RefinementMesh::segmentNumber(origin))].Constraint
-          : -1;
-        ++i;
-      }
-    });
+  }
+  result.AddedXY.truncate(2 * added);
   return ids;
 }
 
