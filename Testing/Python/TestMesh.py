@@ -145,6 +145,10 @@ class Domains(unittest.TestCase):
     def test_lines_enclose_the_domain(self):
         self.assertAlmostEqual(4, areas(tipp.mesh(SQUARES, INNER)).sum())
 
+    def test_hole_outside(self):
+        with self.assertRaisesRegex(RuntimeError, r"the hole at \(9, 9\) is in no triangle"):
+            tipp.mesh(SQUARES, OUTER, holes=[(9, 9)])
+
     def test_convex(self):
         self.assertAlmostEqual(64, areas(tipp.mesh(SQUARES, INNER, convex=True)).sum())
 
@@ -232,7 +236,6 @@ class DataSets(unittest.TestCase):
         data.GetPointData().Initialize()
         made.SetInputData(data)
         made.SetMaximumArea(0.1)
-        made.AddHole(9, 9)
         made.AddRegion(1, 1, 0.05)
         made.Update()
         mesh = tipp.mesh(SQUARES, OUTER, max_area=0.1, regions=[(1, 1, 0.05)])
