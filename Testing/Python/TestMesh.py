@@ -106,6 +106,10 @@ class Bounds(unittest.TestCase):
         self.assertEqual(18, len(mesh.points))
         self.assertIn(4, mesh.cell_data["OutsideBounds"])
 
+    def test_without_bounds_no_points_are_added(self):
+        points = np.random.default_rng(3).random((60, 2))
+        self.assertEqual(60, len(tipp.mesh(points, min_angle=0).points))
+
     def test_threads_do_not_matter(self):
         points = np.random.default_rng(2).random((1000, 2))
         one, four = (tipp.mesh(points, size=lambda x, y: 0.005 + 0.03 * x, threads=count) for count in (1, 4))

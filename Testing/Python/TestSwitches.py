@@ -99,6 +99,13 @@ class Bounds(unittest.TestCase):
     def test_areas_of_regions_need_the_switch(self):
         self.assertGreater(areas(tipp.triangulate(FULL, "pqA")).max(), 0.1)
 
+    def test_without_bounds_there_are_no_new_points(self):
+        vertices = np.random.default_rng(3).random((60, 2))
+        found = tipp.triangulate({"vertices": vertices})
+        self.assertEqual(60, len(found["vertices"]))
+        self.assertEqual({tuple(sorted(triangle)) for triangle in tipp.delaunay(vertices).tolist()},
+                         {tuple(sorted(triangle)) for triangle in found["triangles"].tolist()})
+
     def test_no_points(self):
         self.assertEqual(9, len(tipp.triangulate(GRAPH, "pqa0.1S0")["vertices"]))
         self.assertEqual(12, len(tipp.triangulate(GRAPH, "pqa0.1S3")["vertices"]))
@@ -175,6 +182,10 @@ class Markers(unittest.TestCase):
             (np.isin(x, (1, 3)) | np.isin(y, (1, 3))) & (np.maximum(abs(x - 2), abs(y - 2)) == 1))
         np.testing.assert_array_equal(on_segment[9:], markers[9:] != 0)
 
+    def test_markers_of_segments_come_before_the_border(self):
+        given = {"vertices": VERTICES[:4], "segments": SEGMENTS[:4], "segment_markers": [[0], [0], [4], [5]]}
+        self.assertEqual([5, 1, 4, 4], tipp.triangulate(given, "p")["vertex_markers"].ravel().tolist())
+
     def test_border_is_1_if_nothing_is_given(self):
         found = tipp.triangulate(GRAPH, "pqa0.2e")
         x, y = found["vertices"].T
@@ -211,11 +222,11 @@ class Misuse(unittest.TestCase):
 
     def test_switches(self):
         for letter in "DXCvousBPNEIOgw ":
-            self.assert_refused(ValueError, f"the switch '{letter}' of 'pq{letter}' is not supported", GRAPH, "pq" + letter)
+            self.assert_refused(ValueError, f"opts has the switch '{letter}', which is not supported", GRAPH, "pq" + letter)
         self.assert_refused(ValueError, "the angle of q is 35.0; give at most 34 degrees", GRAPH, "pq35")
         self.assert_refused(ValueError, "the area of a is 0.0; give a number above 0", GRAPH, "pa0")
-        self.assert_refused(ValueError, "the switch 'q.' has no number", GRAPH, "pq.")
-        self.assert_refused(ValueError, "the switch r needs the key 'triangles'", GRAPH, "rq")
+        self.assert_refused(ValueError, "opts has the switch 'q.' without a number", GRAPH, "pq.")
+        self.assert_refused(ValueError, "opts has the switch r, but tri has no key 'triangles'", GRAPH, "rq")
 
     def test_switches_without_effect(self):
         plain = tipp.triangulate(GRAPH, "pq")

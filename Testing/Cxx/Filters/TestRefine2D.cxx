@@ -25,7 +25,7 @@ using namespace testing_delaunay;
 using Ids = std::vector<vtkIdType>;
 
 /// A square of side 8 with a smaller one inside, whose plane is z = x + 2 y.
-vtkSmartPointer<vtkPolyData> squares()
+vtkSmartPointer<vtkPolyData> refinedSquares()
 {
   std::vector<Point3> points{ { 0, 0, 0 }, { 8, 0, 0 }, { 8, 8, 0 }, { 0, 8, 0 }, { 3, 3, 0 },
     { 5, 3, 0 }, { 5, 5, 0 }, { 3, 5, 0 } };
@@ -36,7 +36,7 @@ vtkSmartPointer<vtkPolyData> squares()
   return dataset(points);
 }
 
-vtkSmartPointer<vtkCellArray> cells(const std::vector<Ids>& lists)
+vtkSmartPointer<vtkCellArray> cellArray(const std::vector<Ids>& lists)
 {
   auto array = vtkSmartPointer<vtkCellArray>::New();
   for (const Ids& ids : lists)
@@ -75,20 +75,20 @@ void forTriangles(
   }
 }
 
-double areaOf(const std::vector<Corner>& p)
+double triangleArea(const std::vector<Corner>& p)
 {
   return ((p[1].X - p[0].X) * (p[2].Y - p[0].Y) - (p[1].Y - p[0].Y) * (p[2].X - p[0].X)) / 2;
 }
 
-double areaOf(vtkPolyData* mesh)
+double meshArea(vtkPolyData* mesh)
 {
   double sum = 0;
-  forTriangles(mesh, [&sum](vtkIdType, const auto& corners) { sum += areaOf(corners); });
+  forTriangles(mesh, [&sum](vtkIdType, const auto& corners) { sum += triangleArea(corners); });
   return sum;
 }
 
 /// The smallest angle, in degrees.
-double angleOf(const std::vector<Corner>& p)
+double triangleAngle(const std::vector<Corner>& p)
 {
   constexpr double degree = 3.14159265358979323846 / 180;
   double least = 180;
@@ -104,11 +104,11 @@ double angleOf(const std::vector<Corner>& p)
   return least;
 }
 
-double angleOf(vtkPolyData* mesh)
+double meshAngle(vtkPolyData* mesh)
 {
   double least = 180;
-  forTriangles(
-    mesh, [&least](vtkIdType, const auto& corners) { least = std::min(least, angleOf(corners)); });
+  forTriangles(mesh,
+    [&least](vtkIdType, const auto& corners) { least = std::min(least, triangleAngle(corners)); });
   return least;
 }
 
@@ -129,18 +129,18 @@ protected:
 
 TEST_F(Refine2D, TrianglesMeetTheAngle)
 {
-  const auto input = squares();
-  input->SetLines(cells({ { 0, 1, 2, 3, 0 }, { 4, 5, 6, 7, 4 } }));
+  const auto input = refinedSquares();
+  input->SetLines(cellArray({ { 0, 1, 2, 3, 0 }, { 4, 5, 6, 7, 4 } }));
   vtkPolyData* const mesh = this->run(input);
-  EXPECT_GE(angleOf(mesh), 30 - 1e-9);
-  EXPECT_DOUBLE_EQ(areaOf(mesh), 64);
+  EXPECT_GE(meshAngle(mesh), 30 - 1e-9);
+  EXPECT_DOUBLE_EQ(meshArea(mesh), 64);
   EXPECT_TRUE(this->Heard.Errors.empty());
 }
 
 TEST_F(Refine2D, InputPointsComeFirst)
 {
-  const auto input = squares();
-  input->SetPolys(cells({ Outer }));
+  const auto input = refinedSquares();
+  input->SetPolys(cellArray({ Outer }));
   this->Filter->SetMaximumArea(0.5);
   vtkPolyData* const mesh = this->run(input);
   ASSERT_GT(mesh->GetNumberOfPoints(), input->GetNumberOfPoints());
@@ -155,8 +155,8 @@ TEST_F(Refine2D, InputPointsComeFirst)
 
 TEST_F(Refine2D, ValuesOfNewPointsAreLinear)
 {
-  const auto input = squares();
-  input->SetPolys(cells({ Outer }));
+  const auto input = refinedSquares();
+  input->SetPolys(cellArray({ Outer }));
   vtkNew<vtkDoubleArray> values;
   values->SetName("Sum");
   for (vtkIdType i = 0; i < input->GetNumberOfPoints(); ++i)
@@ -179,38 +179,38 @@ TEST_F(Refine2D, ValuesOfNewPointsAreLinear)
 
 TEST_F(Refine2D, PolygonsDefineTheDomain)
 {
-  const auto input = squares();
-  input->SetPolys(cells({ Outer, { 7, 6, 5, 4 } }));
-  EXPECT_DOUBLE_EQ(areaOf(this->run(input)), 60);
+  const auto input = refinedSquares();
+  input->SetPolys(cellArray({ Outer, { 7, 6, 5, 4 } }));
+  EXPECT_DOUBLE_EQ(meshArea(this->run(input)), 60);
 }
 
 TEST_F(Refine2D, LinesEncloseTheDomain)
 {
-  const auto input = squares();
-  input->SetLines(cells({ { 4, 5, 6, 7, 4 } }));
-  EXPECT_DOUBLE_EQ(areaOf(this->run(input)), 4);
+  const auto input = refinedSquares();
+  input->SetLines(cellArray({ { 4, 5, 6, 7, 4 } }));
+  EXPECT_DOUBLE_EQ(meshArea(this->run(input)), 4);
 }
 
 TEST_F(Refine2D, ConvexIsTheHull)
 {
-  const auto input = squares();
-  input->SetPolys(cells({ Inner }));
+  const auto input = refinedSquares();
+  input->SetPolys(cellArray({ Inner }));
   this->Filter->ConvexOn();
-  EXPECT_DOUBLE_EQ(areaOf(this->run(input)), 64);
+  EXPECT_DOUBLE_EQ(meshArea(this->run(input)), 64);
 }
 
 TEST_F(Refine2D, HolesAreRemoved)
 {
-  const auto input = squares();
-  input->SetLines(cells({ { 0, 1, 2, 3, 0 }, { 4, 5, 6, 7, 4 } }));
+  const auto input = refinedSquares();
+  input->SetLines(cellArray({ { 0, 1, 2, 3, 0 }, { 4, 5, 6, 7, 4 } }));
   this->Filter->AddHole(4, 4);
-  EXPECT_DOUBLE_EQ(areaOf(this->run(input)), 60);
+  EXPECT_DOUBLE_EQ(meshArea(this->run(input)), 60);
 }
 
 TEST_F(Refine2D, OpenLinesEncloseNothing)
 {
-  const auto input = squares();
-  input->SetLines(cells({ { 4, 5, 6, 7 } }));
+  const auto input = refinedSquares();
+  input->SetLines(cellArray({ { 4, 5, 6, 7 } }));
   EXPECT_EQ(this->run(input)->GetNumberOfPolys(), 0);
   ASSERT_EQ(this->Heard.Warnings.size(), 1u);
   EXPECT_NE(this->Heard.Warnings[0].find("enclose nothing"), std::string::npos);
@@ -218,9 +218,9 @@ TEST_F(Refine2D, OpenLinesEncloseNothing)
 
 TEST_F(Refine2D, RegionsLimitTheirAreas)
 {
-  const auto input = squares();
-  input->SetPolys(cells({ Outer }));
-  input->SetLines(cells({ { 4, 5, 6, 7, 4 } }));
+  const auto input = refinedSquares();
+  input->SetPolys(cellArray({ Outer }));
+  input->SetLines(cellArray({ { 4, 5, 6, 7, 4 } }));
   this->Filter->AddRegion(4, 4, 0.02);
   this->Filter->AddRegion(1, 1, 0);
   vtkPolyData* const mesh = this->run(input);
@@ -231,7 +231,7 @@ TEST_F(Refine2D, RegionsLimitTheirAreas)
   forTriangles(mesh,
     [&](vtkIdType t, const auto& corners)
     {
-      const double area = areaOf(corners);
+      const double area = triangleArea(corners);
       const bool isInner = regions->GetComponent(t, 0) == 0;
       inner += isInner ? area : 0;
       largest = isInner ? largest : std::max(largest, area);
@@ -243,8 +243,8 @@ TEST_F(Refine2D, RegionsLimitTheirAreas)
 
 TEST_F(Refine2D, RegionOutsideOfTheDomainIsAnError)
 {
-  const auto input = squares();
-  input->SetPolys(cells({ Outer }));
+  const auto input = refinedSquares();
+  input->SetPolys(cellArray({ Outer }));
   this->Filter->AddRegion(9, 9, 1);
   EXPECT_EQ(this->run(input)->GetNumberOfCells(), 0);
   ASSERT_EQ(this->Heard.Errors.size(), 1u);
@@ -258,11 +258,11 @@ void expectSizes(vtkPolyData* mesh, const std::function<double(double, double)>&
     [&](vtkIdType, const auto& p)
     {
       const double side = h((p[0].X + p[1].X + p[2].X) / 3, (p[0].Y + p[1].Y + p[2].Y) / 3);
-      EXPECT_LE(areaOf(p), std::sqrt(3.0) / 4 * side * side * (1 + 1e-9));
+      EXPECT_LE(triangleArea(p), std::sqrt(3.0) / 4 * side * side * (1 + 1e-9));
     });
 }
 
-vtkSmartPointer<vtkDoubleArray> sizes(
+vtkSmartPointer<vtkDoubleArray> sizeArray(
   vtkPolyData* data, const std::function<double(double, double)>& h)
 {
   auto array = vtkSmartPointer<vtkDoubleArray>::New();
@@ -277,9 +277,9 @@ vtkSmartPointer<vtkDoubleArray> sizes(
 TEST_F(Refine2D, SizesAreInterpolatedOnTheInput)
 {
   const auto h = [](double x, double y) { return 0.2 + 0.1 * x + 0.05 * y; };
-  const auto input = squares();
-  input->SetPolys(cells({ Outer }));
-  input->GetPointData()->AddArray(sizes(input, h));
+  const auto input = refinedSquares();
+  input->SetPolys(cellArray({ Outer }));
+  input->GetPointData()->AddArray(sizeArray(input, h));
   this->Filter->SetSizeArrayName("h");
   expectSizes(this->run(input), h);
 }
@@ -287,11 +287,11 @@ TEST_F(Refine2D, SizesAreInterpolatedOnTheInput)
 TEST_F(Refine2D, SizesAreThoseOfTheSecondInput)
 {
   const auto h = [](double x, double y) { return 0.9 - 0.1 * x + 0.05 * y; };
-  const auto input = squares();
-  input->SetPolys(cells({ Outer }));
+  const auto input = refinedSquares();
+  input->SetPolys(cellArray({ Outer }));
   const auto mesh = dataset({ { -1, -1, 5 }, { 9, -1, 0 }, { 9, 9, 0 }, { -1, 9, 7 } }, VTK_FLOAT);
-  mesh->SetPolys(cells({ Outer }));
-  mesh->GetPointData()->AddArray(sizes(mesh, h));
+  mesh->SetPolys(cellArray({ Outer }));
+  mesh->GetPointData()->AddArray(sizeArray(mesh, h));
   this->Filter->SetSizeData(mesh);
   this->Filter->SetSizeArrayName("h");
   expectSizes(this->run(input), h);
@@ -300,15 +300,15 @@ TEST_F(Refine2D, SizesAreThoseOfTheSecondInput)
 TEST_F(Refine2D, MissingSizeArrayIsAnError)
 {
   this->Filter->SetSizeArrayName("h");
-  this->run(squares());
+  this->run(refinedSquares());
   ASSERT_EQ(this->Heard.Errors.size(), 1u);
   EXPECT_NE(this->Heard.Errors[0].find("the input has no point array 'h'"), std::string::npos);
 }
 
 TEST_F(Refine2D, SizeThatIsNotPositiveIsAnError)
 {
-  const auto input = squares();
-  input->GetPointData()->AddArray(sizes(input, [](double x, double) { return x; }));
+  const auto input = refinedSquares();
+  input->GetPointData()->AddArray(sizeArray(input, [](double x, double) { return x; }));
   this->Filter->SetSizeArrayName("h");
   this->run(input);
   ASSERT_EQ(this->Heard.Errors.size(), 1u);
@@ -318,23 +318,30 @@ TEST_F(Refine2D, SizeThatIsNotPositiveIsAnError)
 TEST_F(Refine2D, TrianglesOutsideOfBoundsAreMarked)
 {
   const auto input = dataset({ { 0, 0, 0 }, { 8, 0, 0 }, { 8, 1, 0 } });
-  input->SetPolys(cells({ { 0, 1, 2 } }));
+  input->SetPolys(cellArray({ { 0, 1, 2 } }));
   vtkPolyData* const mesh = this->run(input);
   vtkDataArray* const marks = mesh->GetCellData()->GetArray("OutsideBounds");
   ASSERT_TRUE(marks);
   forTriangles(mesh,
     [&](vtkIdType t, const auto& corners)
     {
-      const bool isThin = angleOf(corners) < 30 - 1e-9;
+      const bool isThin = triangleAngle(corners) < 30 - 1e-9;
       EXPECT_EQ(marks->GetComponent(t, 0), isThin ? vtkTIPPRefine2D::INPUT_ANGLE : 0);
     });
-  EXPECT_LT(angleOf(mesh), 8);
+  EXPECT_LT(meshAngle(mesh), 8);
+}
+
+TEST_F(Refine2D, WithoutBoundsNoPointsAreAdded)
+{
+  const auto input = dataset(randomPoints(60));
+  this->Filter->SetMinimumAngle(0);
+  EXPECT_EQ(this->run(input)->GetNumberOfPoints(), 60);
 }
 
 TEST_F(Refine2D, KeptSegmentsHaveNoNewPoints)
 {
-  const auto input = squares();
-  input->SetPolys(cells({ Outer }));
+  const auto input = refinedSquares();
+  input->SetPolys(cellArray({ Outer }));
   this->Filter->SetMaximumArea(0.5);
   this->Filter->KeepSegmentsOn();
   this->Filter->GenerateSegmentsOn();
@@ -347,8 +354,8 @@ TEST_F(Refine2D, KeptSegmentsHaveNoNewPoints)
 
 TEST_F(Refine2D, MostPointsLimitsTheMesh)
 {
-  const auto input = squares();
-  input->SetPolys(cells({ Outer }));
+  const auto input = refinedSquares();
+  input->SetPolys(cellArray({ Outer }));
   this->Filter->SetMaximumArea(0.01);
   this->Filter->SetMostPoints(10);
   EXPECT_EQ(this->run(input)->GetNumberOfPoints(), input->GetNumberOfPoints() + 10);
@@ -358,7 +365,7 @@ TEST_F(Refine2D, ThreadsDoNotMatter)
 {
   const auto input = dataset(randomPoints(500));
   input->GetPointData()->AddArray(
-    sizes(input, [](double x, double y) { return 0.005 + 0.02 * (x + y); }));
+    sizeArray(input, [](double x, double y) { return 0.005 + 0.02 * (x + y); }));
   this->Filter->SetSizeArrayName("h");
   this->Filter->SetNumberOfThreads(1);
   vtkNew<vtkPolyData> one;
@@ -383,7 +390,7 @@ TEST_F(Refine2D, AbortLeavesTheOutputEmpty)
     { static_cast<vtkAlgorithm*>(filter)->SetAbortExecute(1); });
   this->Filter->AddObserver(vtkCommand::ProgressEvent, abort);
   this->Filter->SetMaximumArea(1e-4);
-  EXPECT_EQ(this->run(squares())->GetNumberOfCells(), 0);
+  EXPECT_EQ(this->run(refinedSquares())->GetNumberOfCells(), 0);
 }
 
 } // namespace
