@@ -50,8 +50,7 @@ void join(const ConstraintTable& table, PointTable& points, std::vector<Constrai
 
 /// Sets the NaN values of points from index `given` on, by interpolation on the surface of the
 /// points before.
-void takeSurface(
-  std::size_t given, DuplicateRule rule, const TriangulationOptions& options, PointTable& points)
+void takeSurface(std::size_t given, DuplicateRule rule, int threads, PointTable& points)
 {
   const auto isMissing = [given](const PointTable::Column& column)
   {
@@ -63,7 +62,7 @@ void takeSurface(
     return;
   }
   TriangulationOptions plain;
-  plain.Threads = options.Threads;
+  plain.Threads = threads;
   const PointsView before(points.XY.data(), given, 2);
   const Triangulation surface = triangulate(before, plain);
   PointTable resolved;
@@ -81,7 +80,7 @@ void takeSurface(
   std::vector<Point2> positions;
   viewOf(points.XY).forEach(
     given, points.size(), [&](std::size_t, Point2 position) { positions.push_back(position); });
-  const auto values = valuesOnSurface(positions, before, surface, columns, options.Threads);
+  const auto values = valuesOnSurface(positions, before, surface, columns, threads);
   for (std::size_t c = 0; c < values.size(); ++c)
   {
     for (std::size_t i = 0; i < positions.size(); ++i)
@@ -109,8 +108,7 @@ void appendCrossings(const std::vector<CrossingPoint>& crossings, PointTable& po
 
 } // namespace
 
-ConstrainedTriangulation triangulateTable(
-  PointTable& points, const TableConstraints& constraints, const TriangulationOptions& options)
+SourceConstraints joinTable(PointTable& points, const TableConstraints& constraints, int threads)
 {
   const std::size_t given = points.size();
   SourceConstraints joined;
@@ -121,8 +119,15 @@ ConstrainedTriangulation triangulateTable(
   joined.Holes = constraints.Lines.holes();
   if (constraints.Surface)
   {
-    takeSurface(given, *constraints.Surface, options, points);
+    takeSurface(given, *constraints.Surface, threads, points);
   }
+  return joined;
+}
+
+ConstrainedTriangulation triangulateTable(
+  PointTable& points, const TableConstraints& constraints, const TriangulationOptions& options)
+{
+  const SourceConstraints joined = joinTable(points, constraints, options.Threads);
   std::vector<std::string> warnings; // are those of other callers
   ConstrainedTriangulation result =
     triangulatePoints(viewOf(points.XY), { options, 0, &joined, constraints.Crossings }, warnings);

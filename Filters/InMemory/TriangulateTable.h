@@ -10,6 +10,13 @@
 namespace tipp
 {
 
+/// Appends to a table of points those of the constraints that it does not have yet. In a column for
+/// heights (see isHeightColumn()), a new point has the constraints' height; its other values are
+/// NaN, unless TableConstraints::Surface is set. Returns the constraints between the table's
+/// points.
+VTKTIPPFILTERS_EXPORT SourceConstraints joinTable(
+  PointTable& points, const TableConstraints& constraints, int threads);
+
 /// Calls triangulatePoints() for the points of a table and constraints that have points of their
 /// own. These are appended to the table unless it has them already, followed by the crossings.
 /// Without constraints, which is the default, the table does not change. Throws

@@ -214,6 +214,10 @@ BlockRefiner::Result BlockRefiner::run(const Box2& block, const Element* begin, 
       this->Queue.clear();
       break;
     }
+    if (const Element* next = this->Queue.next())
+    {
+      __builtin_prefetch(&this->at(next->Triangle));
+    }
     if (this->Mesh.isLive(element.Triangle, element.Version) &&
       this->improve(element.Triangle, need) == Outcome::Waits)
     {

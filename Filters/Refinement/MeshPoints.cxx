@@ -121,22 +121,22 @@ public:
     }
   }
 
+  /// Adds the limits to those of the options.
   void apply(RefinementOptions& options) const
   {
-    options.AreaAt = {};
-    options.LeastArea = 0;
     if (!this->Fields[0] && !this->Fields[1])
     {
       return;
     }
-    options.LeastArea = std::numeric_limits<double>::infinity();
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    options.LeastArea = options.AreaAt ? options.LeastArea : infinity;
     for (const std::optional<AreaField>& field : this->Fields)
     {
       options.LeastArea = field ? std::min(options.LeastArea, field->least()) : options.LeastArea;
     }
-    options.AreaAt = [this](Point2 position)
+    options.AreaAt = [this, given = std::move(options.AreaAt)](Point2 position)
     {
-      double area = std::numeric_limits<double>::infinity();
+      double area = given ? given(position) : infinity;
       for (const std::optional<AreaField>& field : this->Fields)
       {
         area = field ? std::min(area, field->at(position)) : area;
@@ -167,6 +167,7 @@ private:
 bool isEnclosed(const MeshRequest& request)
 {
   return !request.IsConvex && request.Source && !request.Source->Constraints.empty() &&
+    request.Source->BoundaryEdges == 0 &&
     request.Source->PolygonBegin >= request.Source->Constraints.size();
 }
 
@@ -193,6 +194,7 @@ ConstrainedTriangulation triangulateStart(
   {
     source = *request.Source;
     source.PolygonBegin = source.Constraints.size(); // polygons are lines
+    source.BoundaryEdges = 0;
     start.Source = &source;
   }
   ConstrainedTriangulation result = triangulatePoints(points, start, warnings);

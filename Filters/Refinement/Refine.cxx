@@ -395,28 +395,39 @@ Buffer<Index> Refinement::addPoints(RefinedMesh& result) const
   return ids;
 }
 
-/// The smallest angle of a triangle, its sine, and the corner opposite to the shortest edge.
-struct LeastAngle
+/// A triangle's shape.
+struct TriangleShape
 {
-  explicit LeastAngle(const std::array<Point2, 3>& p)
+  explicit TriangleShape(const std::array<Point2, 3>& p)
+    : Twice(cross(p[1] - p[0], p[2] - p[0]))
   {
-    std::array<double, 3> squares;
     for (std::size_t i = 0; i < 3; ++i)
     {
       const Point2 edge = p[(i + 2) % 3] - p[(i + 1) % 3];
-      squares[i] = edge.x * edge.x + edge.y * edge.y;
+      this->Squares[i] = edge.x * edge.x + edge.y * edge.y;
     }
-    this->Corner = int(std::min_element(squares.begin(), squares.end()) - squares.begin());
-    this->Area = cross(p[1] - p[0], p[2] - p[0]) / 2;
-    const auto s = std::size_t(this->Corner);
-    const double twice = 2 * this->Area;
-    this->SineSquared = twice / squares[(s + 1) % 3] * (twice / squares[(s + 2) % 3]);
   }
-  double degrees() const { return std::asin(std::min(1.0, std::sqrt(this->SineSquared))) / Degree; }
 
-  int Corner;
-  double Area;
-  double SineSquared;
+  double shortest() const
+  {
+    return std::min(std::min(this->Squares[0], this->Squares[1]), this->Squares[2]);
+  }
+  double product() const { return this->Squares[0] * this->Squares[1] * this->Squares[2]; }
+  /// The corner with the smallest angle, which is opposite to the shortest edge.
+  int leastCorner() const
+  {
+    return int(
+      std::min_element(this->Squares.begin(), this->Squares.end()) - this->Squares.begin());
+  }
+  /// The smallest angle in degrees.
+  double leastAngle() const
+  {
+    const double square = this->Twice * this->Twice * this->shortest() / this->product();
+    return std::asin(std::min(1.0, std::sqrt(square))) / Degree;
+  }
+
+  double Twice;                  ///< the area
+  std::array<double, 3> Squares; ///< of the lengths of the edges opposite to the corners
 };
 
 /// What a chunk of triangles contributes to the result.
@@ -491,14 +502,17 @@ void Refinement::judgeResult(
   std::int64_t i, const Triangle& triangle, std::vector<TriangleOutside>& outside) const
 {
   const std::array<Point2, 3> p = this->pointsOf(triangle);
-  const LeastAngle least(p);
-  const bool isThin = least.SineSquared < this->LeastSineSquared;
-  if (isThin ||
-    (least.Area > this->Rules.LeastArea &&
-      least.Area > this->Rules.areaLimit(centroid(p), regionOf(triangle))))
+  const TriangleShape shape(p);
+  const bool isThin =
+    shape.Twice * shape.Twice * shape.shortest() < this->LeastSineSquared * shape.product();
+  if (!isThin && shape.Twice <= 2 * this->Rules.LeastArea)
   {
-    outside.push_back(
-      { i, least.degrees(), least.Area, this->reasonFor(triangle, isThin, least.Corner) });
+    return;
+  }
+  if (isThin || shape.Twice > 2 * this->Rules.areaLimit(centroid(p), regionOf(triangle)))
+  {
+    outside.push_back({ i, shape.leastAngle(), shape.Twice / 2,
+      this->reasonFor(triangle, isThin, shape.leastCorner()) });
   }
 }
 

@@ -14,8 +14,8 @@ namespace tipp
 /// and std::bad_alloc.
 using AddCommand = void(CLI::App& app, int& exitCode);
 AddCommand addCheckCommand, addContourCommand, addDelaunayCommand, addDelaunay3DCommand,
-  addDemCommand, addDevicesCommand, addFlattenCommand, addInfoCommand, addPartitionCommand,
-  addPointsCommand, addQueryCommand, addResampleCommand;
+  addDemCommand, addDevicesCommand, addFlattenCommand, addInfoCommand, addMeshCommand,
+  addPartitionCommand, addPointsCommand, addQueryCommand, addResampleCommand;
 
 } // namespace tipp
 

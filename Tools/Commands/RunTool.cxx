@@ -44,10 +44,10 @@ int run(int argc, char** argv)
   app.require_subcommand(1);
   app.failure_message(describeMisuse);
   app.footer("'tipp COMMAND --help' shows the options of a command, their units and examples.\n");
-  for (const auto addCommand :
-    { &addDelaunayCommand, &addDelaunay3DCommand, &addDemCommand, &addDevicesCommand,
-      &addFlattenCommand, &addInfoCommand, &addPointsCommand, &addResampleCommand,
-      &addPartitionCommand, &addQueryCommand, &addContourCommand, &addCheckCommand })
+  for (const auto addCommand : { &addDelaunayCommand, &addDelaunay3DCommand, &addMeshCommand,
+         &addDemCommand, &addDevicesCommand, &addFlattenCommand, &addInfoCommand, &addPointsCommand,
+         &addResampleCommand, &addPartitionCommand, &addQueryCommand, &addContourCommand,
+         &addCheckCommand })
   {
     addCommand(app, exitCode);
   }

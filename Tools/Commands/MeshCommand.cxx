@@ -1,0 +1,639 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Adcirc/AdcircBoundaries.h"
+#include "Commands/Commands.h"
+#include "Commands/PointArguments.h"
+#include "Commands/Report.h"
+#include "Console/Process.h"
+#include "Constraints/TableConstraints.h"
+#include "Files/Formats.h"
+#include "Files/IOError.h"
+#include "Files/InputFile.h"
+#include "InMemory/TriangulateTable.h"
+#include "Meshes/MeshFiles.h"
+#include "Parallel/Poll.h"
+#include "Parallel/Stopwatch.h"
+#include "Points/ReadPoints.h"
+#include "Raster/RasterValues.h"
+#include "Refinement/MeshPoints.h"
+#include "Refinement/ModelBoundaries.h"
+#include "Refinement/NodeDepths.h"
+#include "Refinement/NodeOrder.h"
+#include "Refinement/ReadSizes.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace tipp
+{
+namespace
+{
+
+struct MeshArguments
+{
+  ConstraintFiles Constraints;
+  std::vector<std::string> Points; ///< files of further vertices
+  std::string Output;
+  std::string Statistics; ///< path of a file; empty: none
+  bool Convex = false;
+
+  double MinimumAngle = 30;
+  double LargestArea = 0; ///< 0: not given
+  double ShortestEdge = 0;
+  std::int64_t MostPoints = 0;
+  bool KeepBorder = false;
+  bool KeepSegments = false;
+  std::vector<std::tuple<double, double, double>> Regions; ///< x, y and the largest area
+  SizeArguments Sizes;
+
+  bool DepthsAtNodes = false;
+  std::string OpenPolygon; ///< path; empty: not given
+  std::optional<double> OpenDepth;
+  bool KeepOrder = false;
+  int Threads = 0;
+
+  Opener OutputIs = Opener::None;
+
+  bool hasSizes() const
+  {
+    return !this->Sizes.Size.empty() || this->Sizes.Dis || this->Sizes.WaveLength ||
+      this->Sizes.Slope;
+  }
+  bool hasBoundaryLists() const { return this->OutputIs == Opener::Adcirc; }
+};
+
+/// The mesh, and what its statistics are made from.
+struct MadeMesh
+{
+  PointTable Points; ///< all nodes
+  std::vector<std::int64_t> Triangles;
+  std::vector<std::int64_t> Regions;
+  std::vector<std::array<std::int64_t, 2>> Segments;
+  RefinedMesh Refined; ///< its triangles and points have been moved from
+  std::int64_t GivenPoints = 0;
+  std::int64_t LeftOut = 0; ///< points that are not in the domain
+  std::optional<NodeDepths> Depths;
+  ModelBoundaries Boundaries;
+  std::int64_t BandwidthBefore = 0;
+  std::int64_t Bandwidth = 0;
+};
+
+/// Returns the parts of the constraints between the points, which sizes are measured from.
+std::vector<std::array<Point2, 2>> shorelineOf(
+  const PointTable& points, const SourceConstraints& source)
+{
+  std::vector<std::array<Point2, 2>> lines;
+  const auto at = [&points](PointId id) {
+    return Point2{ points.XY[2 * std::size_t(id)], points.XY[2 * std::size_t(id) + 1] };
+  };
+  for (const Constraint& constraint : source.Constraints)
+  {
+    lines.push_back({ at(constraint.A), at(constraint.B) });
+  }
+  return lines;
+}
+
+Box2 boxOf(const PointTable& points)
+{
+  Box2 box = Box2::empty();
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    box.extend(Point2{ points.XY[2 * i], points.XY[2 * i + 1] });
+  }
+  return box;
+}
+
+RefinementOptions refinementOptions(const MeshArguments& arguments)
+{
+  RefinementOptions options;
+  options.MinimumAngle = arguments.MinimumAngle;
+  if (arguments.LargestArea > 0)
+  {
+    options.LargestArea = arguments.LargestArea;
+  }
+  options.ShortestEdge = arguments.ShortestEdge;
+  options.MostPoints = arguments.MostPoints;
+  options.KeepsBorder = arguments.KeepBorder;
+  options.KeepsSegments = arguments.KeepSegments;
+  for (const auto& [x, y, area] : arguments.Regions)
+  {
+    options.Regions.push_back({ { x, y }, area });
+  }
+  options.Threads = arguments.Threads;
+  return options;
+}
+
+/// Appends the points that the mesh has beyond those of the table, with interpolated columns.
+void appendPoints(const PointsMesh& mesh, PointTable& points)
+{
+  points.XY.insert(points.XY.end(), mesh.NewXY.begin(), mesh.NewXY.end());
+  for (PointTable::Column& column : points.Columns)
+  {
+    for (const PointBlend& blend : mesh.Blends)
+    {
+      column.Values.push_back(
+        blend.valueOf([&column](PointId id) { return column.Values[std::size_t(id)]; }));
+    }
+  }
+}
+
+/// Removes points that are in no triangle, which models do not accept. Returns how many.
+std::int64_t removeUnused(MadeMesh& made)
+{
+  constexpr std::int64_t unused = -1;
+  std::vector<std::int64_t> order;
+  std::vector<std::int64_t> numbers(made.Points.size(), unused);
+  for (const std::int64_t id : made.Triangles)
+  {
+    numbers[std::size_t(id)] = 0;
+  }
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+  {
+    if (numbers[i] != unused)
+    {
+      numbers[i] = std::int64_t(order.size());
+      order.push_back(std::int64_t(i));
+    }
+  }
+  const auto left = std::int64_t(numbers.size() - order.size());
+  if (left > 0)
+  {
+    applyNodeOrder(order, made.Points, made.Triangles);
+    for (auto& segment : made.Segments)
+    {
+      segment = { numbers[std::size_t(segment[0])], numbers[std::size_t(segment[1])] };
+    }
+  }
+  return left;
+}
+
+TrianglesView viewOf(const MadeMesh& made)
+{
+  return TrianglesView(made.Triangles.data(), made.Triangles.size() / 3);
+}
+
+/// Renumbers the nodes if that makes the bandwidth smaller.
+void orderNodes(MadeMesh& made)
+{
+  made.BandwidthBefore = bandwidthOf(viewOf(made));
+  made.Bandwidth = made.BandwidthBefore;
+  const std::vector<std::int64_t> order = reverseCuthillMcKee(made.Points.size(), viewOf(made));
+  const std::int64_t after = bandwidthOf(viewOf(made), order);
+  if (after < made.Bandwidth)
+  {
+    made.Bandwidth = after;
+    applyNodeOrder(order, made.Points, made.Triangles);
+    const std::vector<std::int64_t> numbers = inverseOrder(order);
+    for (auto& segment : made.Segments)
+    {
+      segment = { numbers[std::size_t(segment[0])], numbers[std::size_t(segment[1])] };
+    }
+  }
+}
+
+/// Sets the column depth of the nodes. Throws IOError.
+void addDepths(const MeshArguments& arguments, MadeMesh& made)
+{
+  const std::string& path = arguments.Sizes.Depth;
+  NodeDepthOptions options;
+  options.Axis = arguments.Sizes.DepthIsElevation ? VerticalAxis::Elevations : VerticalAxis::Depths;
+  options.Threads = arguments.Threads;
+  if (formatOf(path, Use::Rasters))
+  {
+    const auto raster = openRasterValues(path);
+    made.Depths = depthsFromRaster(made.Points.XY, viewOf(made), *raster,
+      arguments.DepthsAtNodes ? NodeRule::AtNode : NodeRule::CellMean, options);
+  }
+  else
+  {
+    const auto points = openPointStream({ path }, {});
+    const std::string column = !arguments.Sizes.DepthColumn.empty() ? arguments.Sizes.DepthColumn
+      : arguments.Sizes.DepthIsElevation                            ? "z"
+                                                                    : "depth";
+    made.Depths = depthsFromPoints(made.Points.XY, viewOf(made), *points, column, options);
+  }
+  auto& columns = made.Points.Columns;
+  columns.erase(std::remove_if(columns.begin(), columns.end(),
+                  [](const PointTable::Column& column) { return column.Name == "depth"; }),
+    columns.end());
+  columns.push_back({ "depth", made.Depths->Values });
+}
+
+/// The closed lines of a table, without repeated corners.
+std::vector<std::vector<Point2>> ringsOf(const ConstraintTable& table)
+{
+  std::vector<std::vector<Point2>> rings;
+  std::int64_t expected = -1; // the end of the edge before, which a ring's next one starts from
+  std::int64_t first = -1;
+  for (const auto& [a, b] : table.Edges)
+  {
+    if (a != expected || a == first)
+    {
+      rings.emplace_back();
+      first = a;
+    }
+    rings.back().push_back({ table.XY[2 * std::size_t(a)], table.XY[2 * std::size_t(a) + 1] });
+    expected = b;
+  }
+  return rings;
+}
+
+/// Returns which nodes may be on an open boundary. Throws IOError.
+OpenNodes openNodesOf(const MeshArguments& arguments, const MadeMesh& made)
+{
+  if (arguments.OpenDepth)
+  {
+    return nodesDeeperThan(made.Depths->Values, *arguments.OpenDepth);
+  }
+  if (arguments.OpenPolygon.empty())
+  {
+    return [](std::int64_t) { return false; };
+  }
+  return nodesInside(made.Points.XY, ringsOf(readBoundary(arguments.OpenPolygon)));
+}
+
+void findBoundaries(const MeshArguments& arguments, MadeMesh& made)
+{
+  const LandKinds ofSchism{ 0, 1 };
+  made.Boundaries = findModelBoundaries(made.Points.XY, viewOf(made), openNodesOf(arguments, made),
+    extensionOf(arguments.Output) == ".gr3" ? ofSchism : LandKinds());
+  if (made.Boundaries.TouchingNodes > 0)
+  {
+    fmt::print(stderr,
+      "tipp: warning: the border of the mesh touches itself at {} nodes, with which ADCIRC and "
+      "SCHISM do not run.\n",
+      made.Boundaries.TouchingNodes);
+  }
+  if (made.Boundaries.LoneOpenNodes > 0)
+  {
+    fmt::print(stderr,
+      "tipp: warning: {} nodes of the open boundary have no open neighbour on the border; they are "
+      "mainland.\n",
+      made.Boundaries.LoneOpenNodes);
+  }
+}
+
+/// Reads the input. Throws IOError.
+PointTable readInput(const MeshArguments& arguments, SourceConstraints& source)
+{
+  PointTable points;
+  if (!arguments.Points.empty())
+  {
+    PointOptions options;
+    options.Threads = arguments.Threads;
+    points = readPoints(arguments.Points, options);
+    reportRead(points.Figures);
+    reportTables(points.Reports);
+  }
+  TableConstraints constraints = readConstraints(arguments.Constraints);
+  if (arguments.Points.empty() && !constraints.Lines.Height.empty())
+  {
+    points.Columns.push_back({ "z", {} });
+  }
+  source = joinTable(points, constraints, arguments.Threads);
+  return points;
+}
+
+/// The triangles that are not as asked, and why.
+nlohmann::ordered_json listOutside(const RefinedMesh& mesh, double angle, bool isThin)
+{
+  constexpr double rounding = 1e-6; // of an angle, in degrees
+  const auto textOf = [](TriangleOutside::Reason reason)
+  {
+    switch (reason)
+    {
+      case TriangleOutside::Reason::InputAngle:
+        return "input angle";
+      case TriangleOutside::Reason::ShortestEdge:
+        return "shortest edge";
+      case TriangleOutside::Reason::KeptSegments:
+        return "kept segments";
+      case TriangleOutside::Reason::MostPoints:
+        break;
+    }
+    return "most points";
+  };
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const TriangleOutside& outside : mesh.Outside)
+  {
+    if ((outside.Angle < angle + rounding) == isThin)
+    {
+      list.push_back({ { "triangle", outside.Triangle }, { "angle", outside.Angle },
+        { "area", outside.Area }, { "reason", textOf(outside.Why) } });
+    }
+  }
+  return list;
+}
+
+/// Writes the statistics and prints a summary. Throws IOError.
+void report(const MeshArguments& arguments, const MadeMesh& made, double seconds)
+{
+  const RefinementStatistics& figures = made.Refined.Statistics;
+  const auto triangles = std::int64_t(made.Triangles.size() / 3);
+  nlohmann::ordered_json json = { { "input", arguments.Constraints.name() },
+    { "output", arguments.Output }, { "points", made.Points.size() }, { "triangles", triangles },
+    { "points_given", made.GivenPoints }, { "points_left_out", made.LeftOut },
+    { "points_added", figures.Inserted }, { "segment_splits", figures.Splits },
+    { "levels", figures.Levels }, { "rounds", figures.Rounds }, { "blocks", figures.Blocks },
+    { "bandwidth", made.Bandwidth }, { "mesh_seconds", seconds },
+    { "peak_memory_bytes", peakMemoryBytes() } };
+  if (made.Depths)
+  {
+    json["depths"] = { { "from_cells", made.Depths->FromCells },
+      { "at_nodes", made.Depths->AtNodes }, { "from_others", made.Depths->FromOthers },
+      { "missing", made.Depths->Missing } };
+  }
+  json["below_bound"] = listOutside(made.Refined, arguments.MinimumAngle, true);
+  json["above_area"] = listOutside(made.Refined, arguments.MinimumAngle, false);
+  if (!arguments.Statistics.empty())
+  {
+    writeJson(arguments.Statistics, json);
+  }
+  fmt::print("{} points, {} triangles in {:.3f} s, {:.1f} MB\n", made.Points.size(), triangles,
+    seconds, double(peakMemoryBytes()) / 1e6);
+  const std::size_t thin = json["below_bound"].size();
+  const std::size_t large = json["above_area"].size();
+  if (thin > 0)
+  {
+    const auto forced = std::count_if(made.Refined.Outside.begin(), made.Refined.Outside.end(),
+      [](const TriangleOutside& outside)
+      { return outside.Why == TriangleOutside::Reason::InputAngle; });
+    fmt::print("{} triangles have an angle below {:g} degrees, {} of them because segments of the "
+               "input meet below 60\n",
+      thin, arguments.MinimumAngle, forced);
+  }
+  if (large > 0)
+  {
+    fmt::print("{} triangles are larger than asked\n", large);
+  }
+  warnOfNoTriangles(triangles);
+}
+
+/// Makes the mesh, without depths and boundaries. Returns false if the user interrupted it.
+bool makeMesh(const MeshArguments& arguments, MadeMesh& made)
+{
+  SourceConstraints source;
+  made.Points = readInput(arguments, source);
+  made.GivenPoints = std::int64_t(made.Points.size());
+  const auto bar = std::make_unique<ProgressBar>("Meshing");
+  MeshRequest request;
+  request.Source = &source;
+  request.Crossings = arguments.Constraints.Crossings;
+  request.IsConvex = arguments.Convex;
+  request.HasValues = !made.Points.Columns.empty();
+  request.Refinement = refinementOptions(arguments);
+  const Report progress = progressOn(bar);
+  request.Refinement.Progress = progress;
+  std::optional<SizeFunction> sizes;
+  if (arguments.hasSizes())
+  {
+    constexpr double share = 0.3;
+    sizes = makeSizeFunction(arguments.Sizes, shorelineOf(made.Points, source), boxOf(made.Points),
+      arguments.Threads, partOf(progress, 0, share));
+    const auto areaFor = [](double size) { return std::sqrt(3.0) / 4 * size * size; };
+    request.Refinement.AreaAt = [&sizes, areaFor](Point2 p) { return areaFor(sizes->at(p)); };
+    request.Refinement.LeastArea = areaFor(sizes->least());
+    request.Refinement.Progress = partOf(progress, share, 1);
+  }
+  std::vector<std::string> warnings;
+  PointsMesh mesh =
+    meshPoints(PointsView(made.Points.XY.data(), made.Points.size(), 2), request, warnings);
+  printWarnings(warnings);
+  if (mesh.Aborted)
+  {
+    return false;
+  }
+  appendPoints(mesh, made.Points);
+  made.Triangles.assign(mesh.Mesh.Triangles.begin(), mesh.Mesh.Triangles.end());
+  made.Regions.assign(mesh.Mesh.RegionOf.begin(), mesh.Mesh.RegionOf.end());
+  for (const IdSegment& segment : mesh.Mesh.Segments)
+  {
+    made.Segments.push_back({ segment.A, segment.B });
+  }
+  made.Refined = std::move(mesh.Mesh);
+  made.LeftOut = removeUnused(made);
+  return true;
+}
+
+bool writeMade(const MeshArguments& arguments, const MadeMesh& made, const PathState& before)
+{
+  MeshOptions options;
+  options.Before = before;
+  options.Aborted = isInterrupted;
+  options.Regions = made.Regions;
+  options.Boundaries = made.Boundaries.Lists;
+  options.Segments = made.Segments;
+  return writeMesh(arguments.Output, made.Points, viewOf(made), options);
+}
+
+int runMesh(const MeshArguments& arguments)
+{
+  std::vector<std::string> inputs = arguments.Points;
+  inputs.insert(inputs.end(),
+    { arguments.Constraints.Lines, arguments.Constraints.Boundary, arguments.Sizes.Depth,
+      arguments.OpenPolygon });
+  const PathState before = requireWritable(arguments.Output, arguments.Statistics, inputs);
+  MadeMesh made;
+  Stopwatch watch;
+  if (!makeMesh(arguments, made) || isInterrupted())
+  {
+    return reportInterrupt();
+  }
+  if (!arguments.KeepOrder)
+  {
+    orderNodes(made);
+  }
+  if (!arguments.Sizes.Depth.empty())
+  {
+    addDepths(arguments, made);
+  }
+  if (arguments.hasBoundaryLists())
+  {
+    findBoundaries(arguments, made);
+  }
+  const double seconds = watch.restart();
+  if (isInterrupted() || !writeMade(arguments, made, before))
+  {
+    return reportInterrupt();
+  }
+  report(arguments, made, seconds);
+  return Success;
+}
+
+/// Throws CLI::ValidationError for options that would have no effect or contradict each other.
+void requireFitting(const MeshArguments& arguments)
+{
+  refuseIf(arguments.OutputIs == Opener::Npy, "--output",
+    "must not be .npy, which does not store the points that are added");
+  refuseIf(arguments.OpenDepth && arguments.Sizes.Depth.empty(), "--open-deeper", "needs --depth");
+  refuseIf(arguments.OpenDepth && !arguments.OpenPolygon.empty(), "--open-deeper",
+    "cannot be combined with --open");
+  const bool isOpen = arguments.OpenDepth || !arguments.OpenPolygon.empty();
+  refuseIf(isOpen && !arguments.hasBoundaryLists(),
+    arguments.OpenDepth ? "--open-deeper" : "--open",
+    "needs an output named .14, .grd or .gr3, which lists boundaries");
+  refuseIf(
+    arguments.DepthsAtNodes && arguments.Sizes.Depth.empty(), "--depth-at-nodes", "needs --depth");
+  refuseIf(arguments.Sizes.DepthIsElevation && arguments.Sizes.Depth.empty(), "--positive-up",
+    "needs --depth");
+  refuseIf(!arguments.Sizes.DepthColumn.empty() && arguments.Sizes.Depth.empty(), "--depth-column",
+    "needs --depth");
+  refuseIf((arguments.Sizes.Largest || arguments.Sizes.Gradation || arguments.Sizes.Geographic) &&
+      !arguments.hasSizes(),
+    arguments.Sizes.Largest       ? "--max-size"
+      : arguments.Sizes.Gradation ? "--g"
+                                  : "--geographic",
+    "needs a size: --size, --dis, --wl or --slp");
+}
+
+void addShape(CLI::App& command, MeshArguments& arguments)
+{
+  addChecked(command, "--min-angle", arguments.MinimumAngle,
+    CLI::Range(0.0, RefinementOptions::LargestAngle),
+    "The smallest angle, in degrees: up to 20.7 proved to end, up to 33 tried");
+  command
+    .add_option("--max-area", arguments.LargestArea,
+      "The largest area of a triangle, in the square of the input's unit")
+    ->check(checkPositive);
+  command
+    .add_option("--region", arguments.Regions,
+      "x and y of a point and the largest area of triangles (inf: no further limit) in its part of "
+      "the domain, up to the segments around it; may be given several times")
+    ->allow_extra_args(false);
+  command
+    .add_option("--hole", arguments.Constraints.Holes,
+      "x and y of a point in a hole: there are no triangles up to the segments around it; may be "
+      "given several times")
+    ->allow_extra_args(false);
+  command.add_flag("--convex", arguments.Convex,
+    "Mesh the convex hull; otherwise what polygons contain or, without polygons, what lines "
+    "enclose");
+  command
+    .add_option("--min-edge", arguments.ShortestEdge,
+      "Make no shorter edges; what they would improve is listed (default: 2^-36 of the domain)")
+    ->check(checkPositive);
+  command.add_option("--max-points", arguments.MostPoints, "Add at most so many points")
+    ->check(CLI::PositiveNumber);
+  command.add_flag("--keep-border", arguments.KeepBorder, "Add no points on the border");
+  command.add_flag("--keep-segments", arguments.KeepSegments, "Add no points on any segment");
+}
+
+void addSizes(CLI::App& command, SizeArguments& sizes)
+{
+  command.add_option("--size", sizes.Size,
+    "Length of edges: a number, or a file with lengths: a raster, a mesh or points");
+  command.add_option("--size-column", sizes.Column, "The column or array of the file of --size");
+  command.add_option("--dis", sizes.Dis,
+    "Let sizes grow by so much per unit of distance from the shoreline, from --min-size on");
+  command.add_option("--wl", sizes.WaveLength,
+    "At least so many edges to a wavelength of the M2 tide; needs --depth");
+  command.add_option("--slp", sizes.Slope,
+    "At least so many edges to a depth over its slope, times 2 pi; needs --depth");
+  command.add_option("--min-size", sizes.Least, "The smallest size");
+  command.add_option("--max-size,--max-el", sizes.Largest, "The largest size");
+  command.add_option("--g,--grade", sizes.Gradation,
+    "Let sizes at two places differ by at most so much per unit of distance");
+  command.add_flag("--geographic", sizes.Geographic,
+    "x and y are degrees of longitude and latitude; sizes are metres");
+}
+
+void addModel(CLI::App& command, MeshArguments& arguments)
+{
+  command.add_option("--depth", arguments.Sizes.Depth,
+    "A file with depths, of the nodes and for --wl and --slp: a raster or points");
+  command.add_option("--depth-column", arguments.Sizes.DepthColumn,
+    "The column of the points of --depth (default: depth, or z with --positive-up)");
+  command.add_flag("--positive-up", arguments.Sizes.DepthIsElevation,
+    "The values of --depth are elevations, positive upwards");
+  command.add_flag("--depth-at-nodes", arguments.DepthsAtNodes,
+    "Interpolate a raster at the nodes; otherwise a node gets the mean over its cell");
+  command.add_option(
+    "--open", arguments.OpenPolygon, "A file with polygons: border nodes inside are open boundary");
+  command.add_option(
+    "--open-deeper", arguments.OpenDepth, "Border nodes deeper than this are open boundary");
+  command.add_flag("--keep-order", arguments.KeepOrder,
+    "Leave the nodes in order, the input's first; otherwise they are renumbered for a low "
+    "bandwidth");
+}
+
+void addOptions(CLI::App& command, MeshArguments& arguments)
+{
+  command.add_option("input", arguments.Constraints.Lines, "Lines and polygons, see INPUT below")
+    ->required();
+  addOutput(command, arguments.Output, "The mesh", Use::WritesTriangles);
+  command.add_option("--points", arguments.Points, "Files of points that must be vertices");
+  command.add_option(
+    "--boundary", arguments.Constraints.Boundary, "A file of closed lines: the domain is inside");
+  addShape(command, arguments);
+  addSizes(command, arguments.Sizes);
+  addModel(command, arguments);
+  addCurveOption(command);
+  addThreadsOption(command, arguments.Threads);
+  command.add_option("--stats", arguments.Statistics,
+    "Write figures and the triangles below the bounds to a JSON file");
+}
+
+constexpr const char* footer =
+  R"(INPUT   .poly (Triangle); .csv, .txt (a segment per line: x and y of both ends); .14,
+        .grd, .gr3 (the boundaries of a grid); files of a GIS such as .shp, .gpkg,
+        .geojson; any VTK file: lines and polygons. Counter-clockwise polygons are
+        the domain, clockwise ones are holes.
+OUTPUT  .14, .grd (ADCIRC), .gr3 (SCHISM), .2dm (SMS), .msh (Gmsh), .node with .ele and
+        .poly (Triangle), .vtu or .vtp.
+
+The mesh is a constrained Delaunay triangulation that keeps every segment. No angle is
+below --min-angle, and no triangle larger than the limits allow: a size h allows the
+area of the equilateral triangle with edge h. Where segments meet below 60 degrees,
+smaller angles are left; --stats lists each with its reason, and 'tipp check --quality'
+proves the rest. The result does not depend on the number of threads.
+
+Examples:
+  tipp mesh lake.shp -o lake.vtu --max-area 500
+  tipp mesh coast.gpkg -o coast.14 --min-size 200 --dis 0.15 --max-size 5000
+  tipp mesh bay.shp -o fort.14 --size 100 --depth dem.tif --positive-up --open sea.shp
+  tipp mesh part.poly -o part.node --min-angle 33 --stats part.json
+  tipp check part.node --quality 33 --constraints part.poly --listed part.json
+)";
+
+int run(MeshArguments& arguments)
+{
+  arguments.OutputIs = openerOf(arguments.Output, Use::WritesTriangles);
+  requireFitting(arguments);
+  try
+  {
+    return runMesh(arguments);
+  }
+  catch (const WorkAborted&)
+  {
+    return reportInterrupt();
+  }
+  catch (const std::invalid_argument& error)
+  {
+    throw IOError(arguments.Constraints.name(), error.what());
+  }
+  catch (const std::length_error& error)
+  {
+    throw IOError(arguments.Output, error.what());
+  }
+}
+
+} // namespace
+
+void addMeshCommand(CLI::App& app, int& exitCode)
+{
+  addCommand<MeshArguments>(app, exitCode, "mesh",
+    "Makes a mesh with good angles and chosen sizes inside lines and polygons", footer, addOptions,
+    run);
+}
+
+} // namespace tipp
