@@ -32,7 +32,7 @@ def triangulate(folder: pathlib.Path) -> tipp.Mesh:
     assert counts["triangles"] == len(triangles)
     tetrahedra = tipp.delaunay_3d(POINTS)
     assert isinstance(tetrahedra, tipp.Mesh) and tetrahedra.cells.shape[1] == 4
-    refined = tipp.mesh(POINTS[:, :2], size=lambda x, y: 0.05 + 0.1 * x, holes=[(2.0, 2.0)], regions=[(0.5, 0.5, 0.1)])
+    refined = tipp.mesh(POINTS[:, :2], size=lambda x, y: 0.05 + 0.1 * x, regions=[(0.5, 0.5, 0.1)])
     assert isinstance(refined, tipp.Mesh) and refined.cell_data["OutsideBounds"].shape == refined.cells.shape[:1]
     arrays: dict[str, NDArray[Any]] = tipp.triangulate({"vertices": POINTS[:, :2]}, "q30a0.01", threads=1)
     assert arrays["triangles"].shape[1] == 3
