@@ -30,6 +30,13 @@ std::size_t previousSlot(std::size_t slot)
   return slot % 3 == 0 ? slot + 2 : slot - 1;
 }
 
+InputSegment segmentBetween(PointsView points, Index a, Index b, std::int64_t constraint)
+{
+  InputSegment segment{ { a, b }, { points[std::size_t(a)], points[std::size_t(b)] } };
+  segment.Constraint = constraint;
+  return segment;
+}
+
 /// The triangles given: corners, neighbours, and which of them are in the domain.
 class GivenTriangles
 {
@@ -179,27 +186,144 @@ void findSharpEnds(std::vector<Ray> rays, std::vector<InputSegment>& segments)
   }
 }
 
+/// Copies triangles into a mesh.
+class MeshStart
+{
+public:
+  MeshStart(PointsView points, const GivenTriangles& given, RefinementMesh& mesh)
+    : Points(points)
+    , Given(given)
+    , Mesh(mesh)
+    , Vertices(points.size(), -1)
+  {
+    Index count = 0;
+    for (const char isInside : given.IsInside)
+    {
+      this->Numbers.push_back(isInside ? count++ : -1);
+    }
+    if (std::size_t(count) + RefinementMesh::TrianglesInGroup > mesh.Triangles.capacity())
+    {
+      throw std::length_error("The mesh would have too many triangles for the memory.");
+    }
+    mesh.TriangleEnd = addGroups(count, RefinementMesh::TrianglesInGroup, mesh.TriangleGroups);
+  }
+
+  void run(const std::vector<std::uint32_t>& regions)
+  {
+    for (std::size_t slot = 0; slot < this->Given.Corners.size(); ++slot)
+    {
+      const Index t = this->Numbers[slot / 3];
+      if (t >= 0)
+      {
+        RefinementMesh::Triangle& triangle = this->Mesh.Triangles[std::size_t(t)];
+        triangle.State =
+          RefinementMesh::IsLive | (regions[slot / 3] << RefinementMesh::RegionShift);
+        triangle.Corner[slot % 3] = this->vertexOf(this->Given.Corners[slot]);
+        triangle.Across[slot % 3] = this->linkAcross(slot);
+      }
+    }
+    this->Mesh.PointEnd =
+      addGroups(this->VertexEnd, RefinementMesh::PointsInGroup, this->Mesh.PointGroups);
+    findSharpEnds(std::move(this->Rays), this->Mesh.Segments);
+  }
+
+private:
+  /// Lists the groups of the first places. Returns the end of the last one.
+  static std::int64_t addGroups(std::int64_t places, Index group, std::vector<Index>& groups)
+  {
+    std::int64_t end = 0;
+    for (; end < places; end += group)
+    {
+      groups.push_back(Index(end));
+    }
+    return end;
+  }
+
+  Index vertexOf(Index id)
+  {
+    Index& vertex = this->Vertices[std::size_t(id)];
+    if (vertex < 0)
+    {
+      vertex = this->VertexEnd++;
+      this->Mesh.Points[std::size_t(vertex)] = this->Points[std::size_t(id)];
+      this->Mesh.Origins[std::size_t(vertex)] = RefinementMesh::ofInput(id);
+    }
+    return vertex;
+  }
+
+  /// The link across the edge opposite to a corner of a triangle in the domain.
+  Link linkAcross(std::size_t slot)
+  {
+    const Index start = this->Given.Corners[nextSlot(slot)];
+    const Index stop = this->Given.Corners[previousSlot(slot)];
+    const Index beside = this->Given.Neighbors[slot];
+    if (beside < 0 || this->Numbers[std::size_t(beside)] < 0)
+    {
+      if (!this->Mesh.has(start, stop))
+      {
+        this->Mesh.add(segmentBetween(this->Points, start, stop, -1));
+      }
+      this->addRays(start, stop, true);
+      return RefinementMesh::Outside;
+    }
+    int corner = 0; // opposite to the edge there, which goes from stop to start
+    while (this->Given.Corners[nextSlot(3 * std::size_t(beside) + std::size_t(corner))] != stop)
+    {
+      ++corner;
+    }
+    const Link link = RefinementMesh::linkTo(this->Numbers[std::size_t(beside)], corner);
+    if (!this->Given.isSegment(slot))
+    {
+      return link;
+    }
+    this->addRays(start, stop, false);
+    return link | RefinementMesh::IsSegment;
+  }
+
+  /// Adds a segment with the domain to its left as seen from its start; at the border also as seen
+  /// from its end. Otherwise the triangle beside it does so.
+  void addRays(Index start, Index stop, bool isBorder)
+  {
+    const Index number = this->Mesh.segmentBetween(start, stop);
+    const InputSegment& segment = this->Mesh.Segments[std::size_t(number)];
+    const auto directionOf = [&](std::size_t from)
+    {
+      const Point2 along = segment.Ends[1 - from] - segment.Ends[from];
+      return std::atan2(along.y, along.x);
+    };
+    const std::size_t from = segment.Ids[0] == start ? 0 : 1;
+    this->Rays.push_back({ start, directionOf(from), number, from, true });
+    if (isBorder)
+    {
+      this->Rays.push_back({ stop, directionOf(1 - from), number, 1 - from, false });
+    }
+  }
+
+  const PointsView Points;
+  const GivenTriangles& Given;
+  RefinementMesh& Mesh;
+  std::vector<Index> Numbers;  ///< of the given triangles in the mesh, or -1
+  std::vector<Index> Vertices; ///< of the points in the mesh, or -1
+  Index VertexEnd = 0;
+  std::vector<Ray> Rays;
+};
+
 } // namespace
 
 void startMesh(PointsView points, const ConstrainedTriangulation& triangulation,
   const RefinementOptions& options, RefinementMesh& mesh)
 {
-  if (points.size() > RefinementMesh::MostTriangles)
+  if (points.size() + RefinementMesh::PointsInGroup > mesh.Points.capacity())
   {
-    throw std::length_error("The mesh would have too many points.");
+    throw std::length_error("The mesh would have too many points for the memory.");
   }
-  const auto segmentOf = [&](PointId a, PointId b, std::int64_t constraint)
-  {
-    InputSegment segment{ { Index(a), Index(b) },
-      { points[std::size_t(a)], points[std::size_t(b)] } };
-    segment.Constraint = constraint;
-    return segment;
-  };
   for (const IdSegment& segment : triangulation.Constraints.Segments)
   {
-    if (!mesh.has(Index(segment.A), Index(segment.B)))
+    const auto a = Index(segment.A);
+    const auto b = Index(segment.B);
+    if (!mesh.has(a, b))
     {
-      mesh.add(segmentOf(segment.A, segment.B, segment.Constraint));
+      mesh.add(segmentBetween(points, a, b, segment.Constraint));
     }
   }
   GivenTriangles given(triangulation.Mesh, mesh);
@@ -208,83 +332,7 @@ void startMesh(PointsView points, const ConstrainedTriangulation& triangulation,
     given.keepEnclosed();
   }
   const std::vector<std::uint32_t> regions = given.regions(points, options.Regions);
-  std::vector<Index> numbers(given.IsInside.size(), -1); // of the triangles in the mesh
-  std::int64_t count = 0;
-  for (std::size_t t = 0; t < numbers.size(); ++t)
-  {
-    numbers[t] = given.IsInside[t] ? Index(count++) : -1;
-  }
-  std::vector<Index> vertices(points.size(), -1);
-  std::int64_t vertexCount = 0;
-  std::vector<Ray> rays;
-  for (std::size_t slot = 0; slot < given.Corners.size(); ++slot)
-  {
-    const Index t = numbers[slot / 3];
-    if (t < 0)
-    {
-      continue;
-    }
-    RefinementMesh::Triangle& triangle = mesh.Triangles[std::size_t(t)];
-    const Index id = given.Corners[slot];
-    Index& vertex = vertices[std::size_t(id)];
-    if (vertex < 0)
-    {
-      vertex = Index(vertexCount++);
-      mesh.Points[std::size_t(vertex)] = points[std::size_t(id)];
-      mesh.Origins[std::size_t(vertex)] = RefinementMesh::ofInput(id);
-    }
-    triangle.Corner[slot % 3] = vertex;
-    triangle.State = RefinementMesh::IsLive | (regions[slot / 3] << RefinementMesh::RegionShift);
-    const Index start = given.Corners[nextSlot(slot)];
-    const Index stop = given.Corners[previousSlot(slot)];
-    const Index beside = given.Neighbors[slot];
-    const bool isBorder = beside < 0 || numbers[std::size_t(beside)] < 0;
-    if (isBorder && !mesh.has(start, stop))
-    {
-      mesh.add(segmentOf(start, stop, -1));
-    }
-    const bool isSegment = isBorder || given.isSegment(slot);
-    Link link = RefinementMesh::Outside;
-    if (!isBorder)
-    {
-      int corner = 0;
-      while (given.Corners[nextSlot(3 * std::size_t(beside) + std::size_t(corner))] != stop)
-      {
-        ++corner;
-      }
-      link = RefinementMesh::linkTo(numbers[std::size_t(beside)], corner) |
-        (isSegment ? RefinementMesh::IsSegment : 0);
-    }
-    triangle.Across[slot % 3] = link;
-    if (isSegment)
-    {
-      const Index number = mesh.segmentBetween(start, stop);
-      const InputSegment& segment = mesh.Segments[std::size_t(number)];
-      const auto directionOf = [&](std::size_t from)
-      {
-        const Point2 along = segment.Ends[1 - from] - segment.Ends[from];
-        return std::atan2(along.y, along.x);
-      };
-      const std::size_t from = segment.Ids[0] == start ? 0 : 1;
-      rays.push_back({ start, directionOf(from), number, from, true });
-      if (isBorder)
-      {
-        rays.push_back({ stop, directionOf(1 - from), number, 1 - from, false });
-      }
-    }
-  }
-  const auto addGroups = [](std::int64_t taken, Index group, std::vector<Index>& groups)
-  {
-    std::int64_t end = 0;
-    for (; end < taken; end += group)
-    {
-      groups.push_back(Index(end));
-    }
-    return end;
-  };
-  mesh.TriangleEnd = addGroups(count, RefinementMesh::TrianglesInGroup, mesh.TriangleGroups);
-  mesh.PointEnd = addGroups(vertexCount, RefinementMesh::PointsInGroup, mesh.PointGroups);
-  findSharpEnds(std::move(rays), mesh.Segments);
+  MeshStart(points, given, mesh).run(regions);
 }
 
 } // namespace tipp
