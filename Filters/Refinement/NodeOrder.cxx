@@ -2,10 +2,13 @@
 #include "Refinement/NodeOrder.h"
 
 #include "Parallel/CountingSort.h"
+#include "Parallel/ParallelFor.h"
 #include "Parallel/Poll.h"
 
 #include <algorithm>
 #include <cstdlib>
+#include <limits>
+#include <stdexcept>
 #include <utility>
 
 namespace tipp
@@ -18,49 +21,47 @@ class NodeGraph
 {
 public:
   NodeGraph(std::size_t nodes, TrianglesView triangles)
-    : Triangles(triangles)
-    , At(nodes, 1,
+    : Neighbours(nodes, 1,
         [triangles](const auto& visit)
         {
           for (std::size_t t = 0; t < triangles.size(); ++t)
           {
             for (int corner = 0; corner < 3; ++corner)
             {
-              visit(std::size_t(triangles.id(t, corner)), std::int64_t(t));
+              const auto node = std::size_t(triangles.id(t, corner));
+              visit(node, std::int32_t(triangles.id(t, (corner + 1) % 3)));
+              visit(node, std::int32_t(triangles.id(t, (corner + 2) % 3)));
             }
           }
         })
     , Degrees(nodes)
   {
-    std::vector<std::int64_t> neighbours;
-    for (std::size_t node = 0; node < nodes; ++node)
-    {
-      this->neighboursOf(std::int64_t(node), neighbours);
-      this->Degrees[node] = std::int32_t(neighbours.size());
-    }
+    // Those across inner edges are there twice.
+    forIndices(std::int64_t(nodes),
+      [this](std::int64_t node)
+      {
+        std::int32_t* const begin =
+          this->Neighbours.data() + this->Neighbours.start(std::size_t(node));
+        std::int32_t* const end =
+          this->Neighbours.data() + this->Neighbours.start(std::size_t(node) + 1);
+        std::sort(begin, end);
+        this->Degrees[std::size_t(node)] = std::int32_t(std::unique(begin, end) - begin);
+      });
   }
 
   std::size_t size() const { return this->Degrees.size(); }
 
-  /// Replaces `neighbours` by the node's, ascending.
-  void neighboursOf(std::int64_t node, std::vector<std::int64_t>& neighbours) const
+  ///@{
+  /// The node's neighbours, ascending.
+  const std::int32_t* begin(std::int64_t node) const
   {
-    neighbours.clear();
-    const auto at = std::size_t(node);
-    for (const std::int64_t* t = this->At.begin(at); t != this->At.end(at); ++t)
-    {
-      for (int corner = 0; corner < 3; ++corner)
-      {
-        const std::int64_t other = this->Triangles.id(std::size_t(*t), corner);
-        if (other != node)
-        {
-          neighbours.push_back(other);
-        }
-      }
-    }
-    std::sort(neighbours.begin(), neighbours.end());
-    neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
+    return this->Neighbours.data() + this->Neighbours.start(std::size_t(node));
   }
+  const std::int32_t* end(std::int64_t node) const
+  {
+    return this->begin(node) + this->Degrees[std::size_t(node)];
+  }
+  ///@}
 
   /// Whether `a` has fewer neighbours than `b`, or as many and a lower index.
   bool isBefore(std::int64_t a, std::int64_t b) const
@@ -70,8 +71,7 @@ public:
   }
 
 private:
-  TrianglesView Triangles;
-  GroupedItems<std::int64_t> At; ///< the triangles at each node
+  GroupedItems<std::int32_t> Neighbours;
   std::vector<std::int32_t> Degrees;
 };
 
@@ -126,9 +126,9 @@ private:
   void addNeighbours(std::int64_t node, std::int32_t pass)
   {
     const std::size_t begin = this->Nodes.size();
-    this->Graph.neighboursOf(node, this->Found);
-    for (const std::int64_t other : this->Found)
+    for (const std::int32_t* next = this->Graph.begin(node); next != this->Graph.end(node); ++next)
     {
+      const std::int64_t other = *next;
       if (this->Seen[std::size_t(other)] != pass)
       {
         this->Seen[std::size_t(other)] = pass;
@@ -141,7 +141,6 @@ private:
 
   std::size_t LastLevel = 0;      ///< index in Nodes of the first node of the last level
   std::vector<std::int32_t> Seen; ///< the last pass that visited each node; 0: none
-  std::vector<std::int64_t> Found;
 };
 
 /// Leaves the component of `node` in Cuthill and McKee's order in `traversal.Nodes`, from a
@@ -173,6 +172,10 @@ void traverseFromPeriphery(Traversal& traversal, std::int64_t node)
 
 std::vector<std::int64_t> reverseCuthillMcKee(std::size_t nodes, TrianglesView triangles)
 {
+  if (nodes > std::size_t(std::numeric_limits<std::int32_t>::max()))
+  {
+    throw std::length_error("Too many nodes to be ordered.");
+  }
   const NodeGraph graph(nodes, triangles);
   Traversal traversal(graph);
   std::vector<std::int64_t> order;

@@ -20,7 +20,8 @@ namespace tipp
 /// Each component is traversed breadth first from a pseudo-peripheral node; nodes at the same
 /// distance come by their neighbours' order, then by degree, then by index. So the order depends on
 /// the mesh alone. Components follow each other by their lowest nodes, before the reversal. Nodes
-/// without triangles are components. Throws WorkAborted.
+/// without triangles are components. Throws WorkAborted, and std::length_error for more than 2^31 -
+/// 1 nodes.
 /// Source: A. George, J. Liu, Computer Solution of Large Sparse Positive Definite Systems, 1981,
 /// chapter 4.
 VTKTIPPFILTERS_EXPORT std::vector<std::int64_t> reverseCuthillMcKee(
