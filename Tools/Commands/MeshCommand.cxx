@@ -29,6 +29,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -72,6 +73,7 @@ struct MeshArguments
       this->Sizes.Slope;
   }
   bool hasBoundaryLists() const { return this->OutputIs == Opener::Adcirc; }
+  bool isOpen() const { return this->OpenDepth || !this->OpenPolygon.empty(); }
   bool sizesNeedDepths() const { return this->Sizes.WaveLength || this->Sizes.Slope; }
 };
 
@@ -307,21 +309,46 @@ void addDepths(const MeshArguments& arguments, MadeMesh& made)
   columns.push_back({ "depth", made.Depths->Values });
 }
 
-/// The closed lines of a table, without repeated corners.
+/// The closed lines of a boundary, without repeated corners. Its edges may come in any order and
+/// direction, as at each place, compared by x and y, an even number of them ends.
 std::vector<std::vector<Point2>> ringsOf(const ConstraintTable& table)
 {
-  std::vector<std::vector<Point2>> rings;
-  std::int64_t expected = -1; // the end of the edge before, which a ring's next one starts from
-  std::int64_t first = -1;
-  for (const auto& [a, b] : table.Edges)
+  using Place = std::pair<double, double>;
+  const auto placeOf = [&table](std::int64_t id) {
+    return Place{ table.XY[2 * std::size_t(id)], table.XY[2 * std::size_t(id) + 1] };
+  };
+  std::map<Place, std::vector<std::size_t>> edgesAt;
+  for (std::size_t edge = 0; edge < table.Edges.size(); ++edge)
   {
-    if (a != expected || a == first)
+    edgesAt[placeOf(table.Edges[edge][0])].push_back(edge);
+    edgesAt[placeOf(table.Edges[edge][1])].push_back(edge);
+  }
+  std::vector<bool> isUsed(table.Edges.size(), false);
+  const auto takeEdge = [&](const Place& at)
+  {
+    std::vector<std::size_t>& edges = edgesAt[at];
+    while (!edges.empty() && isUsed[edges.back()])
     {
-      rings.emplace_back();
-      first = a;
+      edges.pop_back();
     }
-    rings.back().push_back({ table.XY[2 * std::size_t(a)], table.XY[2 * std::size_t(a) + 1] });
-    expected = b;
+    return edges.empty() ? table.Edges.size() : edges.back();
+  };
+  std::vector<std::vector<Point2>> rings;
+  for (const auto& first : table.Edges)
+  {
+    std::vector<Point2> ring;
+    Place at = placeOf(first[0]);
+    for (std::size_t edge = takeEdge(at); edge < table.Edges.size(); edge = takeEdge(at))
+    {
+      isUsed[edge] = true;
+      ring.push_back({ at.first, at.second });
+      const Place end = placeOf(table.Edges[edge][0]);
+      at = end == at ? placeOf(table.Edges[edge][1]) : end;
+    }
+    if (!ring.empty())
+    {
+      rings.push_back(std::move(ring));
+    }
   }
   return rings;
 }
@@ -345,6 +372,13 @@ void findBoundaries(const MeshArguments& arguments, MadeMesh& made)
   const LandKinds ofSchism{ 0, 1 };
   made.Boundaries = findModelBoundaries(made.Points.XY, viewOf(made), openNodesOf(arguments, made),
     extensionOf(arguments.Output) == ".gr3" ? ofSchism : LandKinds());
+  if (arguments.isOpen() && made.Boundaries.Lists.Open.empty())
+  {
+    fmt::print(stderr,
+      "tipp: warning: there is no open boundary, because no two neighbouring nodes of the border "
+      "are {}.\n",
+      arguments.OpenDepth ? "deeper than --open-deeper" : "in the polygons of --open");
+  }
   if (made.Boundaries.TouchingNodes > 0)
   {
     fmt::print(stderr,
@@ -622,8 +656,7 @@ void requireFitting(const MeshArguments& arguments)
   refuseIf(arguments.OpenDepth && !hasDepths, "--open-deeper", "needs --depth");
   refuseIf(arguments.OpenDepth && !arguments.OpenPolygon.empty(), "--open-deeper",
     "cannot be combined with --open");
-  const bool isOpen = arguments.OpenDepth || !arguments.OpenPolygon.empty();
-  refuseIf(isOpen && !arguments.hasBoundaryLists(),
+  refuseIf(arguments.isOpen() && !arguments.hasBoundaryLists(),
     arguments.OpenDepth ? "--open-deeper" : "--open",
     "needs an output named .14, .grd or .gr3, which lists boundaries");
   refuseIf(arguments.DepthsAtNodes && !hasDepths, "--depth-at-nodes", "needs --depth");

@@ -497,6 +497,23 @@ TEST_F(TippMesh, PolygonChoosesTheOpenBoundary)
   }
 }
 
+/// The lines may come in any order and direction.
+TEST_F(TippMesh, ClosedLinesChooseTheOpenBoundary)
+{
+  this->Folder.file("sea.csv", "x1,y1,x2,y2\n39,-1,41,-1\n39,31,39,-1\n41,31,41,-1\n39,31,41,31\n");
+  const std::string text = this->make("mesh.14", { "--size", "3", "--open", "sea.csv" });
+  EXPECT_EQ(std::string::npos, text.find("warning")) << text;
+  EXPECT_NE(std::string::npos,
+    contentOf(this->Folder.path("mesh.14")).find("\n1 = number of open boundaries"));
+}
+
+TEST_F(TippMesh, NoOpenBoundaryIsAWarning)
+{
+  this->Folder.file("far.csv", "x1,y1,x2,y2\n90,0,99,0\n99,0,90,9\n90,9,90,0\n");
+  const std::string text = this->make("mesh.14", { "--size", "3", "--open", "far.csv" });
+  EXPECT_NE(std::string::npos, text.find("there is no open boundary")) << text;
+}
+
 TEST_F(TippMesh, DeepBorderIsOpen)
 {
   if (!hasGdal())
