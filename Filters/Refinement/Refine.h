@@ -4,54 +4,15 @@
 
 #include "Arrays/Buffer.h"
 #include "Constraints/Insertion/TriangulateConstrained.h"
-#include "Parallel/ParallelFor.h"
-#include "Predicates/Geometry.h"
+#include "Refinement/RefinementOptions.h"
 #include "Triangulation/PointsView.h"
 #include "vtkTIPPFiltersModule.h"
 
 #include <cstdint>
-#include <functional>
-#include <limits>
-#include <string>
 #include <vector>
 
 namespace tipp
 {
-
-/// A part of the domain, enclosed by segments: all triangles that can be reached from a point
-/// without crossing one.
-struct RefinementRegion
-{
-  Point2 Seed;
-  double LargestArea = std::numeric_limits<double>::infinity();
-};
-
-struct RefinementOptions
-{
-  static constexpr double LargestAngle = 34; ///< above, refinement rarely ends
-
-  /// No angle of the mesh is below this, in degrees, 0 to LargestAngle, except in the triangles of
-  /// RefinedMesh::Outside. 20.7 is proved to end, up to 33 has been tried. 0: no bound.
-  double MinimumAngle = 30;
-  /// No triangle is larger, in the square of the points' unit.
-  double LargestArea = std::numeric_limits<double>::infinity();
-  /// A triangle's further limit: the area at its centroid. It is called from several threads, and
-  /// must depend on the position only. Empty: none.
-  std::function<double(Point2)> AreaAt;
-  double LeastArea = 0; ///< a lower bound of AreaAt, which spares calls; 0: unknown
-  std::vector<RefinementRegion> Regions;
-  /// No edge is made that is shorter. What cannot be refined without one is left as it is. 0: 2^-36
-  /// of the domain's longest side or 2^-44 of the largest coordinate, the larger one.
-  double ShortestEdge = 0;
-  bool KeepsBorder = false;   ///< no point is added on the border
-  bool KeepsSegments = false; ///< no point is added on any segment
-  /// The domain is what segments enclose: triangles that can be reached from outside the convex
-  /// hull without crossing one are removed first. Otherwise it is all triangles that are given.
-  bool IsEnclosed = false;
-  std::int64_t MostPoints = 0; ///< at most so many points are added; 0: no limit
-  int Threads = 0;             ///< 0: as usual
-  Report Progress;
-};
 
 struct RefinementStatistics
 {

@@ -143,8 +143,8 @@ public:
   }
 
   /// Whether a thin triangle cannot be improved: its shortest edge joins two input segments that
-  /// meet at less than 60 degrees, at equal distance from there. So it is where shells around that point
-  /// cut them.
+  /// meet at less than 60 degrees, at equal distance from there. So it is where shells around that
+  /// point cut them.
   bool isForced(
     const RefinementMesh& mesh, const RefinementMesh::Triangle& triangle, int shortest) const
   {

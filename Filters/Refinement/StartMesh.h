@@ -2,8 +2,10 @@
 #ifndef tippStartMesh_h
 #define tippStartMesh_h
 
-#include "Refinement/Refine.h"
+#include "Constraints/Insertion/TriangulateConstrained.h"
 #include "Refinement/RefinementMesh.h"
+#include "Refinement/RefinementOptions.h"
+#include "Triangulation/PointsView.h"
 
 namespace tipp
 {

@@ -696,7 +696,9 @@ void addShape(CLI::App& command, MeshArguments& arguments)
     "enclose");
   command
     .add_option("--min-edge", arguments.ShortestEdge,
-      "Make no shorter edges; what they would improve is listed (default: 2^-36 of the domain)")
+      "Add no point nearer than this to a vertex, and halve no edge below twice this; --stats "
+      "lists what "
+      "this leaves (default: 2^-36 of the domain)")
     ->check(checkPositive);
   command.add_option("--max-points", arguments.MostPoints, "Add at most so many points")
     ->check(CLI::PositiveNumber);
@@ -802,7 +804,7 @@ int run(MeshArguments& arguments)
   requireFitting(arguments);
   try
   {
-    return runMesh(arguments);
+    return isIdleRank() ? Success : runMesh(arguments);
   }
   catch (const WorkAborted&)
   {
