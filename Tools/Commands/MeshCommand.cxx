@@ -723,7 +723,7 @@ void addSizes(CLI::App& command, SizeArguments& sizes)
     ->check(checkPositive);
   command
     .add_option("--slp", sizes.Slope,
-      "At least so many edges to a depth over its slope, times 2 pi; needs --depth")
+      "Let sizes be at most 2 pi depth / (so much x the slope of the bottom); needs --depth")
     ->check(checkPositive);
   command.add_option("--min-size", sizes.Least, "The smallest size")->check(checkPositive);
   command.add_option("--max-size,--max-el", sizes.Largest, "The largest size")
