@@ -47,7 +47,7 @@ runs_tool alone Testing/Wheel/TestTool.py
 runs alone Testing/Wheel/TestWithoutVtk.py Testing/Wheel/TestConstraintsWithoutVtk.py Testing/Wheel/TestTetrahedra.py \
   Testing/Wheel/TestVtkFiles.py Testing/Wheel/TestInterpreter.py Testing/Wheel/TestLinkage.py Testing/Wheel/TestPage.py \
   Testing/Wheel/run_readme.py Testing/Python/TestBounds.py Testing/Python/TestCheck.py Testing/Python/TestInputs.py \
-  Testing/Python/TestResults.py
+  Testing/Python/TestMesh.py Testing/Python/TestResults.py Testing/Python/TestSwitches.py
 environment oldest 'numpy<2'
 runs oldest Testing/Wheel/TestWithoutVtk.py Testing/Wheel/TestConstraintsWithoutVtk.py
 environment scipy numpy scipy scikit-learn
@@ -57,8 +57,8 @@ runs_tool tool Testing/Wheel/TestTool.py Testing/Python/TestDemFiles.py Testing/
 environment pyvista 'vtk>=9.7,<9.8' pyvista shapely geopandas laspy meshio polars rioxarray mypy pyright
 runs pyvista Testing/Wheel/TestPyVista.py Testing/Wheel/TestFilters.py Testing/Python/TestArguments.py Testing/Python/TestArrays.py \
   Testing/Python/TestBounds.py Testing/Python/TestCheck.py Testing/Python/TestConstraints.py Testing/Python/TestDelaunay3D.py \
-  Testing/Python/TestInputs.py Testing/Python/TestInterrupt.py Testing/Python/TestPackage.py Testing/Python/TestPointsToImage.py \
-  Testing/Python/TestResults.py Testing/Wheel/TestVtkFiles.py Testing/Wheel/uses_everything.py
+  Testing/Python/TestInputs.py Testing/Python/TestInterrupt.py Testing/Python/TestMesh.py Testing/Python/TestPackage.py \
+  Testing/Python/TestPointsToImage.py Testing/Python/TestResults.py Testing/Python/TestSwitches.py Testing/Wheel/TestVtkFiles.py Testing/Wheel/uses_everything.py
 "$work/pyvista/bin/mypy" --strict --cache-dir "$work/mypy" Testing/Wheel/uses_everything.py
 "$work/pyvista/bin/pyright" --pythonpath "$work/pyvista/bin/python" Testing/Wheel/uses_everything.py
 runs_tool pyvista Testing/Python/TestDem.py

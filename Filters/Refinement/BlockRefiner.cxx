@@ -45,14 +45,15 @@ BlockRefiner::Outcome BlockRefiner::insertFor(Index t, Point2 p)
   const std::int32_t b = this->see(triangle.Corner[1], p);
   const std::int32_t c = this->see(triangle.Corner[2], p);
   this->FirstFan = 0;
+  this->SecondSide = 0;
   this->add(t);
   this->Regions[0] = triangle.State >> RefinementMesh::RegionShift << RefinementMesh::RegionShift;
   this->push(t, 1, c, a);
   this->push(t, 0, b, c);
   this->push(t, 2, a, b);
-  if (!this->isInConflict(this->Seen[std::size_t(b)], this->Seen[std::size_t(a)],
-        -this->Stack[2].Cross, this->Seen[std::size_t(c)], this->Stack[1].Cross,
-        this->Stack[0].Cross, p))
+  if (!isInConflict(this->Seen[std::size_t(b)], this->Seen[std::size_t(a)], -this->Stack[2].Cross,
+        this->Seen[std::size_t(c)], this->Stack[1].Cross, this->Stack[0].Cross, p,
+        this->Mesh.Points.data()))
   {
     this->closeAgain();
     return Outcome::Impossible; // the rounded point is on its circle
@@ -65,8 +66,9 @@ BlockRefiner::Outcome BlockRefiner::insertFor(Index t, Point2 p)
   }
   this->InWay.clear();
   double nearest = std::numeric_limits<double>::infinity();
-  for (const Edge& edge : this->Rim)
+  for (std::size_t i = 0; i < this->RimEnd; ++i)
   {
+    const Edge& edge = this->Rim[i];
     const SeenVertex& start = this->Seen[std::size_t(edge.Start)];
     nearest = std::min(nearest, start.Square);
     if (!RefinementMesh::isSegment(edge.Outer))
@@ -241,30 +243,47 @@ BlockRefiner::Outcome BlockRefiner::split(Index t, int corner)
   return Outcome::Impossible;
 }
 
-/// Makes a triangle part of the cavity.
-void BlockRefiner::add(Index t)
+/// Makes the lists of the cavity longer.
+void BlockRefiner::enlarge()
 {
+  const std::size_t size = std::max<std::size_t>(256, 2 * this->Cavity.size());
+  this->Cavity.resize(size);
+  this->Rim.resize(size);
+  this->Stack.resize(size);
+  this->Seen.resize(size);
+}
+
+/// Makes a triangle part of the cavity. A cavity of n triangles has no vertex inside, so it has n +
+/// 2 edges in its boundary and the stack, and as many vertices; a segment has 3 vertices twice.
+inline void BlockRefiner::add(Index t)
+{
+  constexpr std::size_t more = 8;
+  if (__builtin_expect(this->CavityEnd + more > this->Cavity.size(), 0))
+  {
+    this->enlarge();
+  }
   this->at(t).State |= RefinementMesh::IsInCavity;
-  this->Cavity.append() = t;
+  this->Cavity[this->CavityEnd++] = t;
 }
 
 /// Returns the index of a vertex in Seen.
-std::int32_t BlockRefiner::see(Index vertex, Point2 p)
+inline std::int32_t BlockRefiner::see(Index vertex, Point2 p)
 {
   const Point2 place = this->pointOf(vertex);
-  SeenVertex& seen = this->Seen.append();
+  SeenVertex& seen = this->Seen[this->SeenEnd];
   seen.X = place.x - p.x;
   seen.Y = place.y - p.y;
   seen.Square = seen.X * seen.X + seen.Y * seen.Y;
   seen.Vertex = vertex;
-  return std::int32_t(this->Seen.size()) - 1;
+  return std::int32_t(this->SeenEnd++);
 }
 
 /// Appends the edge opposite to a corner of a triangle of the cavity to the stack.
-void BlockRefiner::push(Index t, int corner, std::int32_t start, std::int32_t stop)
+inline void BlockRefiner::push(Index t, int corner, std::int32_t start, std::int32_t stop)
 {
-  set(this->Stack.append(), crossOf(this->Seen[std::size_t(start)], this->Seen[std::size_t(stop)]),
-    start, stop, RefinementMesh::linkTo(t, corner), this->at(t).Across[std::size_t(corner)]);
+  set(this->Stack[this->StackEnd++],
+    crossOf(this->Seen[std::size_t(start)], this->Seen[std::size_t(stop)]), start, stop,
+    RefinementMesh::linkTo(t, corner), this->at(t).Across[std::size_t(corner)]);
 }
 
 /// Whether p is strictly to the left of an edge.
@@ -281,18 +300,31 @@ bool BlockRefiner::isLeftOf(const Edge& edge, Point2 p) const
     : orientation(this->pointOf(start.Vertex), this->pointOf(stop.Vertex), p) > 0;
 }
 
+namespace
+{
+
+/// A call of its own, so that the usual path keeps its numbers in registers.
+[[gnu::cold, gnu::noinline]] bool isInside(Point2 a, Point2 b, Point2 c, Point2 p)
+{
+  return inCircleExact(a, b, c, p) > 0;
+}
+
+} // namespace
+
 /// Whether the triangle across an edge, with this apex, is in conflict with p: p is strictly inside
 /// its circle. The products are start x stop, start x apex and apex x stop.
 inline bool BlockRefiner::isInConflict(const SeenVertex& start, const SeenVertex& stop,
-  double cross, const SeenVertex& apex, double startCross, double crossStop, Point2 p) const
+  double cross, const SeenVertex& apex, double startCross, double crossStop, Point2 p,
+  const Point2* points)
 {
   const double determinant =
     stop.Square * startCross + start.Square * crossStop - apex.Square * cross;
   const double bound = inCircleErrorBound(start.Square + stop.Square + apex.Square);
-  return std::fabs(determinant) > bound
-    ? determinant > 0
-    : inCircleExact(
-        this->pointOf(stop.Vertex), this->pointOf(start.Vertex), this->pointOf(apex.Vertex), p) > 0;
+  if (__builtin_expect(std::fabs(determinant) > bound, 1))
+  {
+    return determinant > 0;
+  }
+  return isInside(points[stop.Vertex], points[start.Vertex], points[apex.Vertex], p);
 }
 
 /// Grows the cavity across the edges in the stack, whose last one is the first in counter-clockwise
@@ -301,9 +333,18 @@ inline bool BlockRefiner::isInConflict(const SeenVertex& start, const SeenVertex
 BlockRefiner::Outcome BlockRefiner::grow(Point2 p)
 {
   Outcome outcome = Outcome::Done;
-  while (!this->Stack.empty())
+  const Triangle* const triangles = this->Mesh.Triangles.data();
+  const Point2* const points = this->Mesh.Points.data();
+  // Elements are written in place, member by member: copying a whole one that was just written in
+  // parts would stall the processor.
+  Edge* stack = this->Stack.data();
+  Edge* rim = this->Rim.data();
+  SeenVertex* seen = this->Seen.data();
+  std::size_t stackEnd = this->StackEnd;
+  std::size_t rimEnd = this->RimEnd;
+  while (stackEnd > 0)
   {
-    const Edge& edge = this->Stack.takeLast();
+    const Edge& edge = stack[--stackEnd];
     const double cross = edge.Cross;
     const std::int32_t from = edge.Start;
     const std::int32_t to = edge.Stop;
@@ -311,24 +352,24 @@ BlockRefiner::Outcome BlockRefiner::grow(Point2 p)
     const Link outer = edge.Outer;
     if (RefinementMesh::isSegment(outer))
     {
-      set(this->Rim.append(), cross, from, to, inner, outer);
+      set(rim[rimEnd++], cross, from, to, inner, outer);
       continue;
     }
-    const Index t = RefinementMesh::triangleOf(outer);
     const int entry = RefinementMesh::cornerOf(outer);
-    const Triangle& beside = this->at(t);
+    const Triangle& beside = triangles[std::size_t(RefinementMesh::triangleOf(outer))];
     const Index vertex = beside.Corner[std::size_t(entry)];
-    const Point2 place = this->pointOf(vertex);
-    const double x = place.x - p.x;
-    const double y = place.y - p.y;
-    const SeenVertex apex{ x, y, x * x + y * y, vertex };
-    const SeenVertex& start = this->Seen[std::size_t(from)];
-    const SeenVertex& stop = this->Seen[std::size_t(to)];
-    const double startCross = crossOf(start, apex);
-    const double crossStop = crossOf(apex, stop);
-    if (!this->isInConflict(start, stop, cross, apex, startCross, crossStop, p))
+    const Point2 place = points[vertex];
+    // Beyond the end: it becomes a vertex of the cavity if the triangle does.
+    SeenVertex& apex = seen[this->SeenEnd];
+    apex.X = place.x - p.x;
+    apex.Y = place.y - p.y;
+    apex.Square = apex.X * apex.X + apex.Y * apex.Y;
+    apex.Vertex = vertex;
+    const double startCross = crossOf(seen[from], apex);
+    const double crossStop = crossOf(apex, seen[to]);
+    if (!isInConflict(seen[from], seen[to], cross, apex, startCross, crossStop, p, points))
     {
-      set(this->Rim.append(), cross, from, to, inner, outer);
+      set(rim[rimEnd++], cross, from, to, inner, outer);
       continue;
     }
     if ((beside.State & RefinementMesh::IsInCavity) != 0)
@@ -338,22 +379,24 @@ BlockRefiner::Outcome BlockRefiner::grow(Point2 p)
     }
     if (!this->owns(place)) // the block has the edge's ends
     {
-      return Outcome::Waits;
+      outcome = Outcome::Waits;
+      break;
     }
+    const Index t = RefinementMesh::triangleOf(outer);
+    const auto index = std::int32_t(this->SeenEnd++);
     this->add(t);
-    const auto index = std::int32_t(this->Seen.size());
-    SeenVertex& seen = this->Seen.append();
-    seen.X = x;
-    seen.Y = y;
-    seen.Square = apex.Square;
-    seen.Vertex = vertex;
+    stack = this->Stack.data();
+    rim = this->Rim.data();
+    seen = this->Seen.data();
     const int after = RefinementMesh::next(entry);
     const int last = RefinementMesh::previous(entry);
-    set(this->Stack.append(), crossStop, index, to, RefinementMesh::linkTo(t, last),
+    set(stack[stackEnd++], crossStop, index, to, RefinementMesh::linkTo(t, last),
       beside.Across[std::size_t(last)]);
-    set(this->Stack.append(), startCross, from, index, RefinementMesh::linkTo(t, after),
+    set(stack[stackEnd++], startCross, from, index, RefinementMesh::linkTo(t, after),
       beside.Across[std::size_t(after)]);
   }
+  this->StackEnd = stackEnd;
+  this->RimEnd = rimEnd;
   return outcome;
 }
 
@@ -362,6 +405,7 @@ BlockRefiner::Outcome BlockRefiner::grow(Point2 p)
 BlockRefiner::Outcome BlockRefiner::growAtSegment(Index t, int corner, Point2 p)
 {
   this->FirstFan = 0;
+  this->SecondSide = 1;
   Link side = RefinementMesh::linkTo(t, corner);
   for (std::size_t i = 0; i < 2 && side != RefinementMesh::Outside; ++i)
   {
@@ -379,8 +423,9 @@ BlockRefiner::Outcome BlockRefiner::growAtSegment(Index t, int corner, Point2 p)
     this->push(base, startCorner, stop, apex);
     // In conflict, except after an unlucky rounding.
     if ((triangle.State & RefinementMesh::IsInCavity) != 0 ||
-      !this->isInConflict(seenStop, seenStart, crossOf(seenStop, seenStart),
-        this->Seen[std::size_t(apex)], this->Stack[1].Cross, this->Stack[0].Cross, p))
+      !isInConflict(seenStop, seenStart, crossOf(seenStop, seenStart),
+        this->Seen[std::size_t(apex)], this->Stack[1].Cross, this->Stack[0].Cross, p,
+        this->Mesh.Points.data()))
     {
       return Outcome::Impossible;
     }
@@ -393,13 +438,13 @@ BlockRefiner::Outcome BlockRefiner::growAtSegment(Index t, int corner, Point2 p)
     }
     if (i == 0)
     {
-      this->FirstFan = this->Rim.size();
+      this->FirstFan = this->RimEnd;
     }
     side = triangle.Across[std::size_t(apexCorner)];
   }
-  for (const Edge& edge : this->Rim)
+  for (std::size_t i = 0; i < this->RimEnd; ++i)
   {
-    if (!this->isLeftOf(edge, p))
+    if (!this->isLeftOf(this->Rim[i], p))
     {
       return Outcome::Impossible;
     }
@@ -410,14 +455,11 @@ BlockRefiner::Outcome BlockRefiner::growAtSegment(Index t, int corner, Point2 p)
 /// Gives up the cavity.
 void BlockRefiner::closeAgain()
 {
-  for (const Index t : this->Cavity)
+  for (std::size_t i = 0; i < this->CavityEnd; ++i)
   {
-    this->at(t).State &= ~std::uint32_t(RefinementMesh::IsInCavity);
+    this->at(this->Cavity[i]).State &= ~std::uint32_t(RefinementMesh::IsInCavity);
   }
-  this->Cavity.clear();
-  this->Rim.clear();
-  this->Stack.clear();
-  this->Seen.clear();
+  this->clearCavity();
 }
 
 /// Replaces the triangles of the cavity by those that connect p with the edges of its boundary.
@@ -430,60 +472,69 @@ void BlockRefiner::insert(Point2 p, Index origin)
     this->PointPlaces.take(mesh.PointEnd, RefinementMesh::PointsInGroup, mesh.Points.capacity());
   mesh.Points[std::size_t(vertex)] = p;
   mesh.Origins[std::size_t(vertex)] = origin;
-  const std::size_t count = this->Rim.size();
-  this->Made.assign(this->Cavity.begin(), this->Cavity.end());
-  while (this->Made.size() < count)
+  const std::size_t count = this->RimEnd;
+  while (this->CavityEnd < count)
   {
-    this->Made.push_back(this->TrianglePlaces.take(
-      mesh.TriangleEnd, RefinementMesh::TrianglesInGroup, mesh.Triangles.capacity()));
+    this->Cavity[this->CavityEnd++] = this->TrianglePlaces.take(
+      mesh.TriangleEnd, RefinementMesh::TrianglesInGroup, mesh.Triangles.capacity());
   }
-  Index before = this->Made[count - 1];
+  Triangle* const triangles = mesh.Triangles.data();
+  const Index* const slots = this->Cavity.data();
+  const Edge* const rim = this->Rim.data();
+  const SeenVertex* const seen = this->Seen.data();
+  Index before = slots[count - 1];
+  Index t = slots[0];
   for (std::size_t i = 0; i < count; ++i)
   {
-    const Edge& edge = this->Rim[i];
-    const Index t = this->Made[i];
-    Triangle& made = this->at(t);
-    made.Corner = { vertex, this->Seen[std::size_t(edge.Start)].Vertex,
-      this->Seen[std::size_t(edge.Stop)].Vertex };
+    const Edge& edge = rim[i];
+    const Index after = slots[i + 1 < count ? i + 1 : 0];
+    const Link outer = edge.Outer;
+    Triangle& made = triangles[t];
+    made.Corner[0] = vertex;
+    made.Corner[1] = seen[edge.Start].Vertex;
+    made.Corner[2] = seen[edge.Stop].Vertex;
     ++made.Version;
-    made.Across = { edge.Outer, RefinementMesh::linkTo(this->Made[i + 1 < count ? i + 1 : 0], 2),
-      RefinementMesh::linkTo(before, 1) };
-    made.State =
-      RefinementMesh::IsLive | this->Regions[i < this->FirstFan || this->FirstFan == 0 ? 0 : 1];
-    before = t;
-    if (edge.Outer != RefinementMesh::Outside)
+    made.Across[0] = outer;
+    made.Across[1] = RefinementMesh::linkTo(after, 2);
+    made.Across[2] = RefinementMesh::linkTo(before, 1);
+    made.State = RefinementMesh::IsLive | this->Regions[i < this->FirstFan ? 0 : this->SecondSide];
+    if (outer != RefinementMesh::Outside)
     {
-      this->at(RefinementMesh::triangleOf(edge.Outer))
-        .Across[std::size_t(RefinementMesh::cornerOf(edge.Outer))] =
-        RefinementMesh::linkTo(t, 0) | (edge.Outer & RefinementMesh::IsSegment);
+      triangles[RefinementMesh::triangleOf(outer)]
+        .Across[std::size_t(RefinementMesh::cornerOf(outer))] =
+        RefinementMesh::linkTo(t, 0) | (outer & RefinementMesh::IsSegment);
     }
+    before = t;
+    t = after;
   }
   if (this->FirstFan > 0)
   {
     this->markSpokes(count);
   }
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    this->enqueueMade(this->Rim[i], this->Made[i]);
-  }
+  this->enqueueMade(count);
   ++this->Counted.Inserted;
-  this->Cavity.clear();
-  this->Rim.clear();
-  this->Seen.clear();
+  this->clearCavity();
 }
 
-/// Enqueues the new triangle at an edge of the cavity if it needs something.
-inline void BlockRefiner::enqueueMade(const Edge& edge, Index t)
+/// Enqueues the new triangles that need something.
+void BlockRefiner::enqueueMade(std::size_t count)
 {
-  const SeenVertex& start = this->Seen[std::size_t(edge.Start)];
-  const SeenVertex& stop = this->Seen[std::size_t(edge.Stop)];
-  const double x = stop.X - start.X;
-  const double y = stop.Y - start.Y;
-  const std::array<double, 3> squares{ x * x + y * y, stop.Square, start.Square };
-  const Triangle& triangle = this->at(t);
-  if (this->Rules.mayNeed(triangle, squares, edge.Cross))
+  const RefinementRules::Limits limits = this->Rules.limits();
+  const SeenVertex* const seen = this->Seen.data();
+  for (std::size_t i = 0; i < count; ++i)
   {
-    this->enqueue(t, this->Rules.judge(this->Mesh, triangle, squares, edge.Cross));
+    const Edge& edge = this->Rim[i];
+    const SeenVertex& start = seen[edge.Start];
+    const SeenVertex& stop = seen[edge.Stop];
+    const double x = stop.X - start.X;
+    const double y = stop.Y - start.Y;
+    const std::array<double, 3> squares{ x * x + y * y, stop.Square, start.Square };
+    if (RefinementMesh::isSegment(edge.Outer) || this->FirstFan > 0 ||
+      limits.areMissed(squares, edge.Cross))
+    {
+      const Index t = this->Cavity[i];
+      this->enqueue(t, this->Rules.judge(this->Mesh, this->at(t), squares, edge.Cross));
+    }
   }
 }
 
@@ -494,8 +545,8 @@ void BlockRefiner::markSpokes(std::size_t count)
   const auto mark = [&](std::size_t first)
   {
     const std::size_t last = first > 0 ? first - 1 : count - 1;
-    Link& from = this->at(this->Made[first]).Across[2];
-    Link& to = this->at(this->Made[last]).Across[1];
+    Link& from = this->at(this->Cavity[first]).Across[2];
+    Link& to = this->at(this->Cavity[last]).Across[1];
     from = isAtBorder ? RefinementMesh::Outside : from | RefinementMesh::IsSegment;
     to = isAtBorder ? RefinementMesh::Outside : to | RefinementMesh::IsSegment;
   };

@@ -16,35 +16,6 @@
 namespace tipp
 {
 
-/// A list whose elements are written in place. Copying them from the stack, as push_back() does,
-/// would stall: a processor cannot load at once what it has stored in smaller parts.
-template <typename T>
-class PlaceList
-{
-public:
-  /// Appends an element that the caller must write.
-  T& append()
-  {
-    if (this->Size == this->Items.size())
-    {
-      this->Items.resize(std::max<std::size_t>(64, 2 * this->Size));
-    }
-    return this->Items[this->Size++];
-  }
-  const T& takeLast() { return this->Items[--this->Size]; }
-  void clear() { this->Size = 0; }
-  bool empty() const { return this->Size == 0; }
-  std::size_t size() const { return this->Size; }
-  T& operator[](std::size_t i) { return this->Items[i]; }
-  const T& operator[](std::size_t i) const { return this->Items[i]; }
-  const T* begin() const { return this->Items.data(); }
-  const T* end() const { return this->Items.data() + this->Size; }
-
-private:
-  std::vector<T> Items;
-  std::size_t Size = 0;
-};
-
 /// Refines the triangles of one block, a box, in one thread, while other threads do so in others.
 ///
 /// A block owns the triangles whose corners are all in it, and only changes these. A triangle
@@ -70,6 +41,7 @@ public:
     : Mesh(mesh)
     , Rules(rules)
   {
+    this->enlarge();
   }
 
   /// What a run leaves.
@@ -153,8 +125,9 @@ private:
   Outcome growAtSegment(Index t, int corner, Point2 p);
 
   bool isLeftOf(const Edge& edge, Point2 p) const;
-  bool isInConflict(const SeenVertex& start, const SeenVertex& stop, double cross,
-    const SeenVertex& apex, double startCross, double crossStop, Point2 p) const;
+  static bool isInConflict(const SeenVertex& start, const SeenVertex& stop, double cross,
+    const SeenVertex& apex, double startCross, double crossStop, Point2 p, const Point2* points);
+  void enlarge();
   void add(Index t);
   std::int32_t see(Index vertex, Point2 p);
   static void set(
@@ -169,9 +142,16 @@ private:
   void push(Index t, int corner, std::int32_t start, std::int32_t stop);
   Outcome grow(Point2 p);
   void closeAgain();
+  void clearCavity()
+  {
+    this->CavityEnd = 0;
+    this->RimEnd = 0;
+    this->StackEnd = 0;
+    this->SeenEnd = 0;
+  }
   void insert(Point2 p, Index origin);
   void markSpokes(std::size_t count);
-  void enqueueMade(const Edge& edge, Index t);
+  void enqueueMade(std::size_t count);
 
   RefinementMesh& Mesh;
   const RefinementRules& Rules;
@@ -180,13 +160,18 @@ private:
   ArrayPlaces TrianglePlaces;
   ArrayPlaces PointPlaces;
   Counts Counted;
-  // Of the current cavity, kept for their memory.
-  PlaceList<Index> Cavity;
-  PlaceList<Edge> Rim;                  ///< of the cavity, counter-clockwise
-  PlaceList<Edge> Stack;                ///< edges to grow across; the last one is next
-  std::vector<Index> Made;              ///< the triangles that replace it
-  PlaceList<SeenVertex> Seen;           ///< vertices of the cavity
+  // Of the current cavity, kept for their memory. All have room for a few elements more than
+  // the cavity has triangles, which is enough: see add(). The ends are counts of elements.
+  std::vector<Index> Cavity;    ///< triangles; while a point is inserted, those that replace them
+  std::vector<Edge> Rim;        ///< of the cavity, counter-clockwise
+  std::vector<Edge> Stack;      ///< edges to grow across; the last one is next
+  std::vector<SeenVertex> Seen; ///< vertices of the cavity
+  std::size_t CavityEnd = 0;
+  std::size_t RimEnd = 0;
+  std::size_t StackEnd = 0;
+  std::size_t SeenEnd = 0;
   std::array<std::uint32_t, 2> Regions; ///< of the cavity's sides of the subsegment, as in State
+  std::size_t SecondSide = 0;           ///< index in Regions of the edges of Rim from FirstFan on
   std::size_t FirstFan = 0; ///< number of edges of Rim on the one side of the subsegment to split
   std::vector<Edge> InWay;  ///< subsegments
 };
@@ -213,6 +198,10 @@ BlockRefiner::Result BlockRefiner::run(const Box2& block, const Element* begin, 
     {
       this->Queue.clear();
       break;
+    }
+    if (const Element* next = this->Queue.next())
+    {
+      __builtin_prefetch(&this->at(next->Triangle));
     }
     if (this->Mesh.isLive(element.Triangle, element.Version) &&
       this->improve(element.Triangle, need) == Outcome::Waits)

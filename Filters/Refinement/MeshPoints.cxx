@@ -171,6 +171,14 @@ bool isEnclosed(const MeshRequest& request)
     request.Source->PolygonBegin >= request.Source->Constraints.size();
 }
 
+/// Whether any angle or area is bounded.
+bool hasBounds(const RefinementOptions& options)
+{
+  return options.MinimumAngle > 0 || std::isfinite(options.LargestArea) || options.AreaAt ||
+    std::any_of(options.Regions.begin(), options.Regions.end(),
+      [](const RefinementRegion& region) { return std::isfinite(region.LargestArea); });
+}
+
 constexpr double StartShare = 0.2; ///< of the progress, for the triangulation to start from
 
 ConstrainedTriangulation triangulateStart(
@@ -334,6 +342,8 @@ PointsMesh meshPoints(
   options.IsEnclosed = isEnclosed(request);
   options.Progress = partOf(request.Refinement.Progress, StartShare, 1);
   fields.apply(options);
+  // refine() would still split segments that are too close to a point.
+  options.KeepsSegments = options.KeepsSegments || !hasBounds(options);
   result.Mesh = refine(all.view(), start, options);
   result.Aborted = result.Mesh.Aborted;
   if (result.Aborted)

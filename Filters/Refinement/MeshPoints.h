@@ -29,7 +29,8 @@ struct LengthSurface
 /// How points in memory are meshed.
 struct MeshRequest
 {
-  /// meshPoints() sets IsEnclosed, and adds the limits below to AreaAt.
+  /// meshPoints() sets IsEnclosed, and adds the limits below to AreaAt. Without bounds of angles
+  /// and areas, no points are added.
   RefinementOptions Refinement;
   const SourceConstraints* Source = nullptr; ///< null: none
   CrossingRule Crossings = CrossingRule::Split;

@@ -289,7 +289,8 @@ bool Refinement::runLevel()
   std::size_t most = this->Options.MostPoints > 0 ? 1 : elements.size() + 1;
   for (bool isFirst = true; !elements.empty() && !this->StoppedEarly; isFirst = false)
   {
-    const std::vector<RefinementBlock> blocks = makeBlocks(this->Mesh, elements, most, !isFirst);
+    const std::vector<RefinementBlock> blocks =
+      makeBlocks(this->Mesh, elements, most, !isFirst, this->Threads);
     ++this->Statistics.Rounds;
     this->Statistics.Blocks += std::int64_t(blocks.size());
     const std::size_t before = elements.size();
@@ -356,67 +357,67 @@ Buffer<Index> Refinement::addPoints(RefinedMesh& result) const
     throw std::length_error("The mesh would have too many points.");
   }
   Buffer<Index> ids(std::size_t(mesh.PointEnd));
-  Index end = Index(given);
-  const auto forVertices = [&](const auto& visit)
+  result.AddedXY = Buffer<double>(2 * std::size_t(mesh.PointEnd)); // more than enough
+  std::size_t added = 0;
+  for (const Index first : mesh.PointGroups)
   {
-    for (const Index first : mesh.PointGroups)
+    for (Index i = first; i < first + RefinementMesh::PointsInGroup; ++i)
     {
-      for (Index vertex = first; vertex < first + RefinementMesh::PointsInGroup; ++vertex)
+      const auto vertex = std::size_t(i);
+      const Index origin = mesh.Origins[vertex];
+      if (RefinementMesh::isInput(origin))
       {
-        visit(std::size_t(vertex), mesh.Origins[std::size_t(vertex)]);
+        ids[vertex] = RefinementMesh::inputId(origin);
+      }
+      else if (origin != RefinementMesh::NoVertex)
+      {
+        ids[vertex] = Index(given + std::int64_t(added));
+        result.AddedXY[2 * added] = mesh.Points[vertex].x;
+        result.AddedXY[2 * added + 1] = mesh.Points[vertex].y;
+        result.AddedOn.push_back(RefinementMesh::isOnSegment(origin)
+            ? mesh.Segments[std::size_t(RefinementMesh::segmentNumber(origin))].Constraint
+            : -1);
+        ++added;
       }
     }
-  };
-  forVertices(
-    [&](std::size_t vertex, Index origin)
-    {
-      if (origin != RefinementMesh::NoVertex)
-      {
-        ids[vertex] = RefinementMesh::isInput(origin) ? RefinementMesh::inputId(origin) : end++;
-      }
-    });
-  const auto added = std::size_t(end) - std::size_t(given);
-  result.AddedXY = Buffer<double>(2 * added);
-  result.AddedOn.resize(added);
-  std::size_t i = 0;
-  forVertices(
-    [&](std::size_t vertex, Index origin)
-    {
-      if (origin != RefinementMesh::NoVertex && !RefinementMesh::isInput(origin))
-      {
-        result.AddedXY[2 * i] = mesh.Points[vertex].x;
-        result.AddedXY[2 * i + 1] = mesh.Points[vertex].y;
-        result.AddedOn[i] = RefinementMesh::isOnSegment(origin)
-          ? mesh.Segments[std::size_t(RefinementMesh::segmentNumber(origin))].Constraint
-          : -1;
-        ++i;
-      }
-    });
+  }
+  result.AddedXY.truncate(2 * added);
   return ids;
 }
 
-/// The smallest angle of a triangle, its sine, and the corner opposite to the shortest edge.
-struct LeastAngle
+/// A triangle's shape.
+struct TriangleShape
 {
-  explicit LeastAngle(const std::array<Point2, 3>& p)
+  explicit TriangleShape(const std::array<Point2, 3>& p)
+    : Twice(cross(p[1] - p[0], p[2] - p[0]))
   {
-    std::array<double, 3> squares;
     for (std::size_t i = 0; i < 3; ++i)
     {
       const Point2 edge = p[(i + 2) % 3] - p[(i + 1) % 3];
-      squares[i] = edge.x * edge.x + edge.y * edge.y;
+      this->Squares[i] = edge.x * edge.x + edge.y * edge.y;
     }
-    this->Corner = int(std::min_element(squares.begin(), squares.end()) - squares.begin());
-    this->Area = cross(p[1] - p[0], p[2] - p[0]) / 2;
-    const auto s = std::size_t(this->Corner);
-    const double twice = 2 * this->Area;
-    this->SineSquared = twice / squares[(s + 1) % 3] * (twice / squares[(s + 2) % 3]);
   }
-  double degrees() const { return std::asin(std::min(1.0, std::sqrt(this->SineSquared))) / Degree; }
 
-  int Corner;
-  double Area;
-  double SineSquared;
+  double shortest() const
+  {
+    return std::min(std::min(this->Squares[0], this->Squares[1]), this->Squares[2]);
+  }
+  double product() const { return this->Squares[0] * this->Squares[1] * this->Squares[2]; }
+  /// The corner with the smallest angle, which is opposite to the shortest edge.
+  int leastCorner() const
+  {
+    return int(
+      std::min_element(this->Squares.begin(), this->Squares.end()) - this->Squares.begin());
+  }
+  /// The smallest angle in degrees.
+  double leastAngle() const
+  {
+    const double square = this->Twice * this->Twice * this->shortest() / this->product();
+    return std::asin(std::min(1.0, std::sqrt(square))) / Degree;
+  }
+
+  double Twice;                  ///< the area
+  std::array<double, 3> Squares; ///< of the lengths of the edges opposite to the corners
 };
 
 /// What a chunk of triangles contributes to the result.
@@ -491,14 +492,17 @@ void Refinement::judgeResult(
   std::int64_t i, const Triangle& triangle, std::vector<TriangleOutside>& outside) const
 {
   const std::array<Point2, 3> p = this->pointsOf(triangle);
-  const LeastAngle least(p);
-  const bool isThin = least.SineSquared < this->LeastSineSquared;
-  if (isThin ||
-    (least.Area > this->Rules.LeastArea &&
-      least.Area > this->Rules.areaLimit(centroid(p), regionOf(triangle))))
+  const TriangleShape shape(p);
+  const bool isThin =
+    shape.Twice * shape.Twice * shape.shortest() < this->LeastSineSquared * shape.product();
+  if (!isThin && shape.Twice <= 2 * this->Rules.LeastArea)
   {
-    outside.push_back(
-      { i, least.degrees(), least.Area, this->reasonFor(triangle, isThin, least.Corner) });
+    return;
+  }
+  if (isThin || shape.Twice > 2 * this->Rules.areaLimit(centroid(p), regionOf(triangle)))
+  {
+    outside.push_back({ i, shape.leastAngle(), shape.Twice / 2,
+      this->reasonFor(triangle, isThin, shape.leastCorner()) });
   }
 }
 

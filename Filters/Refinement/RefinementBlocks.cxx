@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Refinement/RefinementBlocks.h"
 
+#include "Parallel/ParallelFor.h"
+
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -27,9 +29,10 @@ public:
   {
   }
 
-  void cut(const RefinementBlock& block)
+  /// Cuts a block again and again, `depth` times at most.
+  void cut(const RefinementBlock& block, int depth)
   {
-    if (block.End - block.Begin <= this->Size)
+    if (block.End - block.Begin <= this->Size || depth == 0)
     {
       this->Blocks.push_back(block);
       return;
@@ -46,8 +49,8 @@ public:
       return;
     }
     const auto [below, above] = block.Bounds.cut(axis, at);
-    this->cut({ below, block.Begin, cut });
-    this->cut({ above, cut, block.End });
+    this->cut({ below, block.Begin, cut }, depth - 1);
+    this->cut({ above, cut, block.End }, depth - 1);
   }
 
   std::vector<RefinementBlock> Blocks;
@@ -121,7 +124,8 @@ private:
 } // namespace
 
 std::vector<RefinementBlock> makeBlocks(const RefinementMesh& mesh,
-  std::vector<RefinementQueue::Element>& elements, std::size_t most, bool avoidsBorders)
+  std::vector<RefinementQueue::Element>& elements, std::size_t most, bool avoidsBorders,
+  int threads)
 {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   constexpr std::size_t smallest = 2048; // so that a block fits into a processor's own cache
@@ -132,19 +136,37 @@ std::vector<RefinementBlock> makeBlocks(const RefinementMesh& mesh,
     return { { plane, 0, elements.size() } };
   }
   std::vector<PlacedElement> placed(elements.size());
-  for (std::size_t i = 0; i < placed.size(); ++i)
+  forIndices(
+    std::int64_t(placed.size()),
+    [&](std::int64_t i)
+    {
+      const RefinementQueue::Element element = elements[std::size_t(i)];
+      const RefinementMesh::Index corner = mesh.Triangles[std::size_t(element.Triangle)].Corner[0];
+      placed[std::size_t(i)] = { mesh.Points[std::size_t(corner)], element };
+    },
+    threads);
+  // A few large blocks first, which threads then cut.
+  constexpr int coarse = 4;
+  constexpr int all = 64;
+  BlockTree top(placed, size, avoidsBorders);
+  top.cut({ plane, 0, placed.size() }, coarse);
+  std::vector<std::vector<RefinementBlock>> parts(top.Blocks.size());
+  parallelFor(std::int64_t(parts.size()), threads,
+    [&](std::int64_t i)
+    {
+      BlockTree part(placed, size, avoidsBorders);
+      part.cut(top.Blocks[std::size_t(i)], all);
+      parts[std::size_t(i)] = std::move(part.Blocks);
+    });
+  std::vector<RefinementBlock> blocks;
+  for (const std::vector<RefinementBlock>& part : parts)
   {
-    const RefinementMesh::Index corner =
-      mesh.Triangles[std::size_t(elements[i].Triangle)].Corner[0];
-    placed[i] = { mesh.Points[std::size_t(corner)], elements[i] };
+    blocks.insert(blocks.end(), part.begin(), part.end());
   }
-  BlockTree tree(placed, size, avoidsBorders);
-  tree.cut({ plane, 0, placed.size() });
-  for (std::size_t i = 0; i < placed.size(); ++i)
-  {
-    elements[i] = placed[i].What;
-  }
-  return std::move(tree.Blocks);
+  forIndices(
+    std::int64_t(placed.size()),
+    [&](std::int64_t i) { elements[std::size_t(i)] = placed[std::size_t(i)].What; }, threads);
+  return blocks;
 }
 
 } // namespace tipp

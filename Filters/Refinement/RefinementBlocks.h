@@ -27,7 +27,8 @@ struct RefinementBlock
 /// If the elements are what other blocks have left over, most lie along their borders. Therefore
 /// `avoidsBorders` cuts where there is most room between elements.
 std::vector<RefinementBlock> makeBlocks(const RefinementMesh& mesh,
-  std::vector<RefinementQueue::Element>& elements, std::size_t most, bool avoidsBorders);
+  std::vector<RefinementQueue::Element>& elements, std::size_t most, bool avoidsBorders,
+  int threads);
 
 } // namespace tipp
 

@@ -55,6 +55,12 @@ public:
     this->LowestWord = std::min(this->LowestWord, bucket / 64);
   }
 
+  /// The element that take() will return next if none is added before it; null if unknown.
+  const Element* next() const
+  {
+    return this->After != None ? &this->Items[this->After].What : nullptr;
+  }
+
   /// Takes the first one and what it needs; returns false if the queue is empty.
   bool take(Element& element, RefinementRules::Need& need)
   {
@@ -75,6 +81,7 @@ public:
       : bucket < 2 * OfOneNeed ? RefinementRules::Need::Thin
                                : RefinementRules::Need::Large;
     this->First[bucket] = item.Next;
+    this->After = item.Next;
     if (item.Next == None)
     {
       this->Filled[bucket / 64] &= ~(std::uint64_t(1) << bucket % 64);
@@ -121,6 +128,7 @@ private:
 
   std::vector<Item> Items;
   std::uint32_t Unused = None;
+  std::uint32_t After = None; ///< follows the last one taken in its bucket
   std::array<std::uint32_t, 3 * OfOneNeed> First;
   std::array<std::uint32_t, 3 * OfOneNeed> Last;
   std::array<std::uint64_t, Words> Filled{};

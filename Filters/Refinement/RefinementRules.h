@@ -101,14 +101,19 @@ public:
       cross(ab, ac));
   }
 
-  /// Returns false only if judge() returns Need::None.
-  bool mayNeed(const RefinementMesh::Triangle& triangle, const std::array<double, 3>& squares,
-    double twice) const
+  /// What most triangles meet. A copy of it stays in registers.
+  struct Limits
   {
-    const RefinementMesh::Link links = triangle.Across[0] | triangle.Across[1] | triangle.Across[2];
-    return (links & RefinementMesh::IsSegment) != 0 || twice > this->LeastTwice ||
-      this->isThin(squares, twice);
-  }
+    double SineSquared;
+    double LeastTwice;
+
+    /// Returns false only if judge() returns Need::None for a triangle without subsegments.
+    bool areMissed(const std::array<double, 3>& squares, double twice) const
+    {
+      return twice > this->LeastTwice || isThin(squares, twice, this->SineSquared);
+    }
+  };
+  Limits limits() const { return { this->SineSquared, this->LeastTwice }; }
 
   /// `squares`: of the lengths of the edges opposite to the corners; `twice`: twice the area.
   Verdict judge(const RefinementMesh& mesh, const RefinementMesh::Triangle& triangle,
@@ -122,7 +127,7 @@ public:
       return { Need::Segment, 0 };
     }
     const double shortest = std::min(std::min(squares[0], squares[1]), squares[2]);
-    const bool isThin = this->isThin(squares, twice);
+    const bool isThin = RefinementRules::isThin(squares, twice, this->SineSquared);
     if ((!isThin && twice <= this->LeastTwice) || (triangle.State & RefinementMesh::IsGivenUp) != 0)
     {
       return { Need::None, 0 };
@@ -212,10 +217,10 @@ private:
 
   /// The angle between the two longer edges is the smallest one: its sine is twice the area over
   /// the product of their lengths.
-  bool isThin(const std::array<double, 3>& squares, double twice) const
+  static bool isThin(const std::array<double, 3>& squares, double twice, double sineSquared)
   {
     const double shortest = std::min(std::min(squares[0], squares[1]), squares[2]);
-    return twice * twice * shortest < this->SineSquared * (squares[0] * squares[1] * squares[2]);
+    return twice * twice * shortest < sineSquared * (squares[0] * squares[1] * squares[2]);
   }
 
   bool hasEncroached(

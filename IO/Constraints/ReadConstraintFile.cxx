@@ -77,8 +77,24 @@ ConstraintTable readBoundaries(const std::string& path)
   {
     throw IOError(path, "has no boundaries.");
   }
+  // Only the nodes of the boundaries: others are no part of the constraints.
   ConstraintTable table;
-  table.XY = std::move(grid.XY);
+  constexpr std::int64_t unused = -1;
+  std::vector<std::int64_t> ids(grid.XY.size() / 2, unused);
+  for (auto& edge : grid.BoundaryEdges)
+  {
+    for (std::int64_t& node : edge)
+    {
+      std::int64_t& id = ids[std::size_t(node)];
+      if (id == unused)
+      {
+        id = std::int64_t(table.XY.size() / 2);
+        table.XY.push_back(grid.XY[2 * std::size_t(node)]);
+        table.XY.push_back(grid.XY[2 * std::size_t(node) + 1]);
+      }
+      node = id;
+    }
+  }
   table.Edges = std::move(grid.BoundaryEdges);
   table.PolygonBegin = table.Edges.size();
   return table;

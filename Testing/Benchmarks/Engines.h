@@ -55,6 +55,11 @@ Run runVtk(const std::vector<double>& xy);
 Run runConstrained(const std::vector<double>& xy, const std::vector<Constraint>& segments,
   const TriangulationOptions& options);
 Run runCgalConstrained(const std::vector<double>& xy, const std::vector<Constraint>& segments);
+
+/// Refines what segments enclose until no angle is below `angle` degrees and no edge longer than
+/// that of the equilateral triangle of an area.
+Run runCgalMesh(const std::vector<double>& xy, const std::vector<Constraint>& segments,
+  double angle, double area);
 Run runVtkConstrained(const std::vector<double>& xy, const std::vector<Constraint>& segments);
 ///@}
 

@@ -33,6 +33,10 @@ raster = TIPPPointsToImage(Input=Plane(XResolution=10, YResolution=10), Resoluti
 raster.UpdatePipeline()
 print("raster:", raster.GetDataInformation().GetExtent(), sorted(raster.PointData.keys()))
 
+meshed = TIPPRefine2D(Input=Plane(), MaximumArea=0.01, Regions=[0, 0, 0.001])
+meshed.UpdatePipeline()
+print("meshed:", sorted(meshed.CellData.keys()))
+
 asked = Plane(XResolution=3, YResolution=3, Origin=(-0.4, -0.4, 0), Point1=(0.4, -0.4, 0), Point2=(-0.4, 0.9, 0))
 sampled = TIPPMeshQuery(Input=asked, Source=Elevation(Input=points, LowPoint=(-0.5, 0, 0), HighPoint=(0.5, 0, 0)))
 sampled.UpdatePipeline()
@@ -44,6 +48,7 @@ print("wrapped:", vtkTIPPDelaunay2D().GetClassName(), vtkTIPPRangeReader().GetUs
 definitions = servermanager.ProxyManager().SMProxyManager.GetProxyDefinitionManager()
 for group, name in (("sources", "TIPPReader"), ("writers", "TIPPWriter"), ("filters", "TIPPDelaunay2D"),
                     ("sources", "TIPPOutOfCoreDelaunay2D"), ("filters", "RangeResample"), ("filters", "TIPPPointsToImage"),
+                    ("filters", "TIPPRefine2D"),
                     ("filters", "TIPPMeshQuery")):
     proxy = servermanager.ProxyManager().NewProxy(group, name)
     names = servermanager.PropertyIterator(servermanager._getPyProxy(proxy))
@@ -74,9 +79,12 @@ EXPECTED = [
     "unseen of RangeResample: []",
     "undocumented of TIPPPointsToImage: []",
     "unseen of TIPPPointsToImage: []",
+    "undocumented of TIPPRefine2D: []",
+    "unseen of TIPPRefine2D: []",
     "undocumented of TIPPMeshQuery: []",
     "unseen of TIPPMeshQuery: []",
     "queried: ['CellId', 'Elevation', 'Normals', 'TextureCoordinates', 'elevation', 'vtkValidPointMask'] (0.0, 1.0)",
+    "meshed: ['OutsideBounds', 'Region']",
     "raster: (0, 9, 0, 9, 0, 0) ['elevation', 'slope']",
 ]
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import importlib.util
 import pathlib
 import tempfile
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,6 +32,10 @@ def triangulate(folder: pathlib.Path) -> tipp.Mesh:
     assert counts["triangles"] == len(triangles)
     tetrahedra = tipp.delaunay_3d(POINTS)
     assert isinstance(tetrahedra, tipp.Mesh) and tetrahedra.cells.shape[1] == 4
+    refined = tipp.mesh(POINTS[:, :2], size=lambda x, y: 0.05 + 0.1 * x, regions=[(0.5, 0.5, 0.1)])
+    assert isinstance(refined, tipp.Mesh) and refined.cell_data["OutsideBounds"].shape == refined.cells.shape[:1]
+    arrays: dict[str, NDArray[Any]] = tipp.triangulate({"vertices": POINTS[:, :2]}, "q30a0.01", threads=1)
+    assert arrays["triangles"].shape[1] == 3
     try:
         ranks(POINTS)
     except RuntimeError as error:

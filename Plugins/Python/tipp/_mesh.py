@@ -147,7 +147,7 @@ def mesh(
     >>> square = [[0, 0], [4, 0], [4, 4], [0, 4]]
     >>> mesh = tipp.mesh(square, [[0, 1], [1, 2], [2, 3], [3, 0]], size=lambda x, y: 0.1 + 0.2 * x)
     """
-    options = {
+    options: dict[str, Any] = {
         "min_angle": angle_of(min_angle, "min_angle"),
         "max_area": math.inf if max_area is None else positive(max_area, "max_area"),
         "holes": [tuple(check.several(hole, "holes", 2, check.number)) for hole in check.a_list(holes, "holes")],
@@ -240,8 +240,8 @@ def _with_corners(points: np.ndarray, data: dict[str, np.ndarray], constraints: 
     if len(corners):
         points = np.concatenate([points.astype(np.float64), corners])
         data = {name: np.concatenate([array, values[name]]) for name, array in data.items() if name in values}
-    renumbered = ([numbers[ids] for ids in lists] for lists in (constraints.lines, constraints.polygons))
-    return points, data, Constraints(*renumbered, corners)
+    return points, data, Constraints([numbers[ids] for ids in constraints.lines],
+                                     [numbers[ids] for ids in constraints.polygons], corners)
 
 
 def _set_size(size: Any, given: int, domain: Domain, options: dict[str, Any]) -> Mesh | None:

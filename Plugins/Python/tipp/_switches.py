@@ -99,7 +99,7 @@ def triangulate(tri: Mapping[str, Any], opts: str = "", *, threads: int = 0) -> 
     given = _input_of(tri)
     is_segmented, is_remade = "p" in switches.letters, "r" in switches.letters
     if is_remade and len(given.triangles) == 0:
-        raise ValueError("the switch r needs the key 'triangles'; give the mesh to refine.")
+        raise ValueError("opts has the switch r, but tri has no key 'triangles'; give the mesh to refine.")
     lines = list(given.segments) if is_segmented else []
     rings = _rings(given.triangles) if is_remade else []
     uses_areas = "a" in switches.letters and math.isinf(switches.max_area)
@@ -122,13 +122,13 @@ def _switches_of(opts: str) -> _Switches:
         if letter not in "pqacrAenjYS" + _WITHOUT_EFFECT:
             advice = {"D": "meshes are constrained Delaunay", "C": "tipp.check() proves a triangulation",
                       "X": "the arithmetic is always exact"}.get(letter, "leave it out")
-            raise ValueError(f"the switch '{letter}' of '{opts}' is not supported: {advice}.")
+            raise ValueError(f"opts has the switch '{letter}', which is not supported: {advice}.")
         letters.add(letter)
         borders += letter == "Y"
         if letter == "q":
-            angle = angle_of(_number(match[1], match[0]), "the angle of q") if match[1] else _ANGLE
+            angle = angle_of(_number(match[1], match[0]), "opts: the angle of q") if match[1] else _ANGLE
         elif letter == "a" and match[2]:
-            area = positive(_number(match[2], match[0]), "the area of a")
+            area = positive(_number(match[2], match[0]), "opts: the area of a")
         elif letter == "S":
             most = int(match[3] or 0)
     return _Switches(frozenset(letters), borders > 1, angle, area, most)
@@ -138,7 +138,7 @@ def _number(text: str, switch: str) -> float:
     try:
         return float(text)
     except ValueError:
-        raise ValueError(f"the switch '{switch}' has no number; write, for example, q30 or a0.1.") from None
+        raise ValueError(f"opts has the switch '{switch}' without a number; write, for example, q30 or a0.1.") from None
 
 
 def _input_of(tri: Any) -> _Input:
@@ -288,17 +288,15 @@ def _result(found: Mesh, given: _Input, switches: _Switches, lines: list[np.ndar
     of_segments = np.append(given.segment_markers, 0)[np.where(numbers < len(lines), numbers, -1)]
     ends = np.sort(segments, axis=1).astype(np.int64)
     known = np.searchsorted(edges.ends[:, 0] * count + edges.ends[:, 1], ends[:, 0] * count + ends[:, 1])
+    markers = np.zeros(count, np.int32)
+    markers[: len(given.markers)] = given.markers
+    border = edges.ends[edges.is_border].ravel()
+    for ids, values in ((segments.ravel(), np.repeat(of_segments, 2)), (border, np.ones(len(border), np.int32))):
+        wanted = np.flatnonzero((markers[ids] == 0) & (values != 0))[::-1]  # the first one is assigned last
+        markers[ids[wanted]] = values[wanted]
     of_segments = np.where((of_segments == 0) & edges.is_border[known], 1, of_segments).astype(np.int32)
     of_edges = edges.is_border.astype(np.int32)
     of_edges[known] = of_segments
-
-    markers = np.zeros(count, np.int32)
-    markers[: len(given.markers)] = given.markers
-    marked = [(segments.ravel(), np.repeat(of_segments, 2)), (edges.ends[edges.is_border].ravel(), None)]
-    for ids, values in marked:
-        values = np.ones(len(ids), np.int32) if values is None else values
-        wanted = np.flatnonzero((markers[ids] == 0) & (values != 0))[::-1]  # the first one is assigned last
-        markers[ids[wanted]] = values[wanted]
 
     result: dict[str, np.ndarray] = {"vertices": np.ascontiguousarray(found.points[:, :2], np.float64)}
     if given.attributes is not None:
@@ -323,6 +321,11 @@ def _without_unused(result: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
     used = np.unique(result["triangles"])
     numbers = np.full(len(result["vertices"]), -1, np.int32)
     numbers[used] = np.arange(len(used), dtype=np.int32)
-    kept = {key: result[key][used] for key in ("vertices", "vertex_attributes", "vertex_markers") if key in result}
-    renumbered = {key: numbers[result[key]] for key in ("triangles", "segments", "edges") if key in result}
-    return {**result, **kept, **renumbered}
+    kept = {**result}  # in the same order
+    for key in ("vertices", "vertex_attributes", "vertex_markers"):
+        if key in kept:
+            kept[key] = kept[key][used]
+    for key in ("triangles", "segments", "edges"):
+        if key in kept:
+            kept[key] = numbers[kept[key]]
+    return kept
