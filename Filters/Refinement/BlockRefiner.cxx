@@ -87,8 +87,7 @@ BlockRefiner::Outcome BlockRefiner::insertFor(Index t, Point2 p)
     this->closeAgain();
     return this->splitInWay(t);
   }
-  if (grown == Outcome::Impossible ||
-    nearest <= this->Rules.ShortestEdge * this->Rules.ShortestEdge)
+  if (grown == Outcome::Impossible || nearest < this->Rules.ShortestEdge * this->Rules.ShortestEdge)
   {
     this->closeAgain();
     return Outcome::Impossible;
@@ -401,7 +400,7 @@ BlockRefiner::Outcome BlockRefiner::grow(Point2 p)
 }
 
 /// The cavity of p, which splits the subsegment opposite to a corner: the triangles in conflict on
-/// both sides, if p can be connected to its whole boundary.
+/// both sides, if p can be connected to its whole boundary by edges that are not too short.
 BlockRefiner::Outcome BlockRefiner::growAtSegment(Index t, int corner, Point2 p)
 {
   this->FirstFan = 0;
@@ -442,9 +441,11 @@ BlockRefiner::Outcome BlockRefiner::growAtSegment(Index t, int corner, Point2 p)
     }
     side = triangle.Across[std::size_t(apexCorner)];
   }
+  const double shortest = this->Rules.ShortestEdge * this->Rules.ShortestEdge;
   for (std::size_t i = 0; i < this->RimEnd; ++i)
   {
-    if (!this->isLeftOf(this->Rim[i], p))
+    const Edge& edge = this->Rim[i];
+    if (this->Seen[std::size_t(edge.Start)].Square < shortest || !this->isLeftOf(edge, p))
     {
       return Outcome::Impossible;
     }

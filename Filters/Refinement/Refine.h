@@ -9,7 +9,6 @@
 #include "vtkTIPPFiltersModule.h"
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 namespace tipp

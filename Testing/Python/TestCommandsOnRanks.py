@@ -154,6 +154,13 @@ class FirstRankAlone(Commands):
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertEqual(len(run.stdout.splitlines()), 1, run.stdout)
 
+    def test_lines_are_meshed_once(self):
+        (self.folder / "pond.poly").write_text("4 2 0 0\n1 0 0\n2 4 0\n3 4 4\n4 0 4\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n0\n")
+        self.make("mesh", "pond.poly", "-o", "one.vtu", "--max-area", "0.1")
+        run = self.run_tipp(3, "mesh", "pond.poly", "-o", "pond.vtu", "--max-area", "0.1")
+        self.assertEqual((run.returncode, run.stdout.count("triangles in")), (0, 1), run.stderr)
+        self.assertEqual((self.folder / "pond.vtu").read_bytes(), (self.folder / "one.vtu").read_bytes())
+
     def test_mesh_is_checked_once(self):
         self.make_surface()
         self.expect_once("check", "points.npy", "triangles.npy")

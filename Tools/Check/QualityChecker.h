@@ -21,8 +21,11 @@ enum class ThinReason
 {
   InputAngle,   ///< forced by two segments of the input that meet at less than 60 degrees
   ShortestEdge, ///< a further point would make an edge shorter than the floor on edges
-  Rounding      ///< a further point would coincide with another one, or invert a triangle
+  Rounding,     ///< a further point would coincide with another one, or invert a triangle
+  KeptSegments, ///< the user allowed no points on the border or on segments
+  MostPoints    ///< the user allowed no more points
 };
+constexpr std::size_t ThinReasons = 5;
 
 /// A triangle that the refinement has listed, because an angle of it is below the bound.
 struct ListedTriangle
@@ -89,7 +92,7 @@ struct QualityReport
   double Grading = 0;     ///< the largest ratio of the areas of two triangles with a common edge
   std::int64_t Below = 0; ///< triangles with an angle below the bound
   /// Those that are excused: by ThinReason. Only input angles are proved; the others are as listed.
-  std::array<std::int64_t, 3> Excused{};
+  std::array<std::int64_t, ThinReasons> Excused{};
 
   Fault LostSegments;   ///< segments of the input that are no chains of edges
   Fault LostPoints;     ///< points of the input that are in the mesh, but no vertices

@@ -32,6 +32,8 @@ ListedTriangle parseListed(const std::string& path, const Json& entry, std::size
     { "input angle", ThinReason::InputAngle },
     { "shortest edge", ThinReason::ShortestEdge },
     { "rounding", ThinReason::Rounding },
+    { "kept segments", ThinReason::KeptSegments },
+    { "most points", ThinReason::MostPoints },
   };
   const auto has = [&entry](const char* name, auto isType)
   { return entry.is_object() && entry.contains(name) && (entry[name].*isType)(); };
@@ -48,7 +50,7 @@ ListedTriangle parseListed(const std::string& path, const Json& entry, std::size
   {
     throw IOError(path,
       fmt::format("entry {} of 'below_bound' has the reason '{}'; there are 'input angle', "
-                  "'shortest edge' and 'rounding'.",
+                  "'shortest edge', 'rounding', 'kept segments' and 'most points'.",
         number, shownText(entry["reason"].get<std::string>())));
   }
   return { entry["triangle"].get<std::int64_t>(), entry["angle"].get<double>(), reason->second };
@@ -105,7 +107,7 @@ void readInput(const QualityArguments& arguments, CheckedMesh& mesh)
 CheckedMesh readRefined(const QualityArguments& arguments)
 {
   std::error_code ignored;
-  const char* const formats = "give the mesh with its points in one file: .vtp, .vtu or .14.";
+  const char* const formats = "give the mesh with its points in one file, such as .vtu or .14.";
   if (std::filesystem::is_directory(arguments.Mesh, ignored))
   {
     throw IOError(
@@ -134,10 +136,12 @@ void printQuality(const QualityReport& report)
   fmt::print("  largest area {:.9g}, largest ratio of areas across an edge {:.4g}\n",
     report.LargestArea, report.Grading);
   const auto excused = [&report](ThinReason reason) { return report.Excused[std::size_t(reason)]; };
-  fmt::print("  {} triangles below {} degrees; excused: {} by input angles (proved), {} by the "
-             "shortest edge and {} by rounding (as listed)\n",
+  fmt::print(
+    "  {} triangles below {} degrees; excused: {} by input angles (proved); as listed, {} by "
+    "the shortest edge, {} by rounding, {} by kept segments and {} by the most points\n",
     report.Below, report.MinAngle, excused(ThinReason::InputAngle),
-    excused(ThinReason::ShortestEdge), excused(ThinReason::Rounding));
+    excused(ThinReason::ShortestEdge), excused(ThinReason::Rounding),
+    excused(ThinReason::KeptSegments), excused(ThinReason::MostPoints));
   fmt::print("  smallest angles in degrees, and numbers of triangles:\n");
   for (std::size_t bin = 0; bin < QualityReport::Bins; ++bin)
   {

@@ -8,6 +8,8 @@
 #include "Files/Formats.h"
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
+#include "Files/RequireApart.h"
+#include "Files/TextFile.h"
 #include "InMemory/TriangulateTable.h"
 #include "Meshes/MeshFiles.h"
 #include "Parallel/Poll.h"
@@ -27,6 +29,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -70,6 +73,8 @@ struct MeshArguments
       this->Sizes.Slope;
   }
   bool hasBoundaryLists() const { return this->OutputIs == Opener::Adcirc; }
+  bool isOpen() const { return this->OpenDepth || !this->OpenPolygon.empty(); }
+  bool sizesNeedDepths() const { return this->Sizes.WaveLength || this->Sizes.Slope; }
 };
 
 /// The mesh, and what its statistics are made from.
@@ -84,7 +89,6 @@ struct MadeMesh
   std::int64_t LeftOut = 0; ///< points that are not in the domain
   std::optional<NodeDepths> Depths;
   ModelBoundaries Boundaries;
-  std::int64_t BandwidthBefore = 0;
   std::int64_t Bandwidth = 0;
 };
 
@@ -103,10 +107,17 @@ std::vector<std::array<Point2, 2>> shorelineOf(
   return lines;
 }
 
-Box2 boxOf(const PointTable& points)
+/// The box in which sizes are needed: that of the lines or, of a convex hull, also of the points.
+Box2 domainOf(const MeshArguments& arguments, const PointTable& points,
+  const std::vector<std::array<Point2, 2>>& lines)
 {
   Box2 box = Box2::empty();
-  for (std::size_t i = 0; i < points.size(); ++i)
+  for (const auto& [a, b] : lines)
+  {
+    box.extend(a);
+    box.extend(b);
+  }
+  for (std::size_t i = 0; arguments.Convex && i < points.size(); ++i)
   {
     box.extend(Point2{ points.XY[2 * i], points.XY[2 * i + 1] });
   }
@@ -147,32 +158,60 @@ void appendPoints(const PointsMesh& mesh, PointTable& points)
   }
 }
 
+/// Keeps these rows of a table, which ascend.
+void keepRows(const std::vector<std::size_t>& rows, PointTable& points)
+{
+  for (std::size_t i = 0; i < rows.size(); ++i)
+  {
+    points.XY[2 * i] = points.XY[2 * rows[i]];
+    points.XY[2 * i + 1] = points.XY[2 * rows[i] + 1];
+    for (PointTable::Column& column : points.Columns)
+    {
+      column.Values[i] = column.Values[rows[i]];
+    }
+  }
+  points.XY.resize(2 * rows.size());
+  for (PointTable::Column& column : points.Columns)
+  {
+    column.Values.resize(rows.size());
+  }
+}
+
+/// Renumbers the points of triangles and segments: point i becomes numbers[i].
+void renumber(const std::vector<std::int64_t>& numbers, MadeMesh& made)
+{
+  for (std::int64_t& id : made.Triangles)
+  {
+    id = numbers[std::size_t(id)];
+  }
+  for (auto& segment : made.Segments)
+  {
+    segment = { numbers[std::size_t(segment[0])], numbers[std::size_t(segment[1])] };
+  }
+}
+
 /// Removes points that are in no triangle, which models do not accept. Returns how many.
 std::int64_t removeUnused(MadeMesh& made)
 {
-  constexpr std::int64_t unused = -1;
-  std::vector<std::int64_t> order;
-  std::vector<std::int64_t> numbers(made.Points.size(), unused);
+  std::vector<std::int64_t> numbers(made.Points.size(), -1);
   for (const std::int64_t id : made.Triangles)
   {
     numbers[std::size_t(id)] = 0;
   }
+  std::vector<std::size_t> used;
   for (std::size_t i = 0; i < numbers.size(); ++i)
   {
-    if (numbers[i] != unused)
+    if (numbers[i] == 0)
     {
-      numbers[i] = std::int64_t(order.size());
-      order.push_back(std::int64_t(i));
+      numbers[i] = std::int64_t(used.size());
+      used.push_back(i);
     }
   }
-  const auto left = std::int64_t(numbers.size() - order.size());
+  const auto left = std::int64_t(numbers.size() - used.size());
   if (left > 0)
   {
-    applyNodeOrder(order, made.Points, made.Triangles);
-    for (auto& segment : made.Segments)
-    {
-      segment = { numbers[std::size_t(segment[0])], numbers[std::size_t(segment[1])] };
-    }
+    keepRows(used, made.Points);
+    renumber(numbers, made);
   }
   return left;
 }
@@ -185,8 +224,6 @@ TrianglesView viewOf(const MadeMesh& made)
 /// Renumbers the nodes if that makes the bandwidth smaller.
 void orderNodes(MadeMesh& made)
 {
-  made.BandwidthBefore = bandwidthOf(viewOf(made));
-  made.Bandwidth = made.BandwidthBefore;
   const std::vector<std::int64_t> order = reverseCuthillMcKee(made.Points.size(), viewOf(made));
   const std::int64_t after = bandwidthOf(viewOf(made), order);
   if (after < made.Bandwidth)
@@ -198,6 +235,47 @@ void orderNodes(MadeMesh& made)
     {
       segment = { numbers[std::size_t(segment[0])], numbers[std::size_t(segment[1])] };
     }
+  }
+}
+
+/// Reports nodes without a depth: VTK's files keep NaN, but models do not run with it. Throws
+/// IOError if the output cannot have such nodes, or if there are no others.
+void checkDepths(const MeshArguments& arguments, const MadeMesh& made)
+{
+  const std::string& path = arguments.Sizes.Depth;
+  const std::int64_t missing = made.Depths->Missing;
+  if (missing == 0)
+  {
+    return;
+  }
+  if (missing == std::int64_t(made.Points.size()))
+  {
+    throw IOError(path,
+      "has no depth at any node; give a file of the same place, in the same reference system.");
+  }
+  if (arguments.OutputIs != Opener::Vtk)
+  {
+    throw IOError(path,
+      fmt::format("has no depths in the parts of the mesh of {} nodes; give a file that covers "
+                  "them, or write .vtu, which stores NaN.",
+        missing));
+  }
+  fmt::print(stderr,
+    "tipp: warning: {} nodes have the depth NaN, because {} has no depths in their parts of the "
+    "mesh.\n",
+    missing, path);
+}
+
+/// Throws IOError unless points with depths have the column.
+void requireColumn(
+  const std::string& path, const std::vector<std::string>& names, const std::string& column)
+{
+  if (std::find(names.begin(), names.end(), column) == names.end())
+  {
+    throw IOError(path,
+      fmt::format("has no column '{}'{}; name one by --depth-column, or give --positive-up for "
+                  "elevations in z.",
+        column, listOfNames({ names.begin(), names.end() }, "; there are ")));
   }
 }
 
@@ -220,8 +298,10 @@ void addDepths(const MeshArguments& arguments, MadeMesh& made)
     const std::string column = !arguments.Sizes.DepthColumn.empty() ? arguments.Sizes.DepthColumn
       : arguments.Sizes.DepthIsElevation                            ? "z"
                                                                     : "depth";
+    requireColumn(path, points->columns(), column);
     made.Depths = depthsFromPoints(made.Points.XY, viewOf(made), *points, column, options);
   }
+  checkDepths(arguments, made);
   auto& columns = made.Points.Columns;
   columns.erase(std::remove_if(columns.begin(), columns.end(),
                   [](const PointTable::Column& column) { return column.Name == "depth"; }),
@@ -229,21 +309,46 @@ void addDepths(const MeshArguments& arguments, MadeMesh& made)
   columns.push_back({ "depth", made.Depths->Values });
 }
 
-/// The closed lines of a table, without repeated corners.
+/// The closed lines of a boundary, without repeated corners. Its edges may come in any order and
+/// direction, as at each place, compared by x and y, an even number of them ends.
 std::vector<std::vector<Point2>> ringsOf(const ConstraintTable& table)
 {
-  std::vector<std::vector<Point2>> rings;
-  std::int64_t expected = -1; // the end of the edge before, which a ring's next one starts from
-  std::int64_t first = -1;
-  for (const auto& [a, b] : table.Edges)
+  using Place = std::pair<double, double>;
+  const auto placeOf = [&table](std::int64_t id) {
+    return Place{ table.XY[2 * std::size_t(id)], table.XY[2 * std::size_t(id) + 1] };
+  };
+  std::map<Place, std::vector<std::size_t>> edgesAt;
+  for (std::size_t edge = 0; edge < table.Edges.size(); ++edge)
   {
-    if (a != expected || a == first)
+    edgesAt[placeOf(table.Edges[edge][0])].push_back(edge);
+    edgesAt[placeOf(table.Edges[edge][1])].push_back(edge);
+  }
+  std::vector<bool> isUsed(table.Edges.size(), false);
+  const auto takeEdge = [&](const Place& at)
+  {
+    std::vector<std::size_t>& edges = edgesAt[at];
+    while (!edges.empty() && isUsed[edges.back()])
     {
-      rings.emplace_back();
-      first = a;
+      edges.pop_back();
     }
-    rings.back().push_back({ table.XY[2 * std::size_t(a)], table.XY[2 * std::size_t(a) + 1] });
-    expected = b;
+    return edges.empty() ? table.Edges.size() : edges.back();
+  };
+  std::vector<std::vector<Point2>> rings;
+  for (const auto& first : table.Edges)
+  {
+    std::vector<Point2> ring;
+    Place at = placeOf(first[0]);
+    for (std::size_t edge = takeEdge(at); edge < table.Edges.size(); edge = takeEdge(at))
+    {
+      isUsed[edge] = true;
+      ring.push_back({ at.first, at.second });
+      const Place end = placeOf(table.Edges[edge][0]);
+      at = end == at ? placeOf(table.Edges[edge][1]) : end;
+    }
+    if (!ring.empty())
+    {
+      rings.push_back(std::move(ring));
+    }
   }
   return rings;
 }
@@ -267,6 +372,13 @@ void findBoundaries(const MeshArguments& arguments, MadeMesh& made)
   const LandKinds ofSchism{ 0, 1 };
   made.Boundaries = findModelBoundaries(made.Points.XY, viewOf(made), openNodesOf(arguments, made),
     extensionOf(arguments.Output) == ".gr3" ? ofSchism : LandKinds());
+  if (arguments.isOpen() && made.Boundaries.Lists.Open.empty())
+  {
+    fmt::print(stderr,
+      "tipp: warning: there is no open boundary, because no two neighbouring nodes of the border "
+      "are {}.\n",
+      arguments.OpenDepth ? "deeper than --open-deeper" : "in the polygons of --open");
+  }
   if (made.Boundaries.TouchingNodes > 0)
   {
     fmt::print(stderr,
@@ -376,7 +488,23 @@ void report(const MeshArguments& arguments, const MadeMesh& made, double seconds
   {
     fmt::print("{} triangles are larger than asked\n", large);
   }
-  warnOfNoTriangles(triangles);
+}
+
+/// Makes the size function. Throws IOError and std::invalid_argument.
+SizeFunction makeSizes(const MeshArguments& arguments, const PointTable& points,
+  const SourceConstraints& source, const Report& progress)
+{
+  const std::vector<std::array<Point2, 2>> lines = shorelineOf(points, source);
+  SizeArguments sizes = arguments.Sizes;
+  if (!arguments.sizesNeedDepths())
+  {
+    // The file is for the depths of nodes only.
+    sizes.Depth.clear();
+    sizes.DepthColumn.clear();
+    sizes.DepthIsElevation = false;
+  }
+  return makeSizeFunction(
+    sizes, lines, domainOf(arguments, points, lines), arguments.Threads, progress);
 }
 
 /// Makes the mesh, without depths and boundaries. Returns false if the user interrupted it.
@@ -398,8 +526,7 @@ bool makeMesh(const MeshArguments& arguments, MadeMesh& made)
   if (arguments.hasSizes())
   {
     constexpr double share = 0.3;
-    sizes = makeSizeFunction(arguments.Sizes, shorelineOf(made.Points, source), boxOf(made.Points),
-      arguments.Threads, partOf(progress, 0, share));
+    sizes = makeSizes(arguments, made.Points, source, partOf(progress, 0, share));
     const auto areaFor = [](double size) { return std::sqrt(3.0) / 4 * size * size; };
     request.Refinement.AreaAt = [&sizes, areaFor](Point2 p) { return areaFor(sizes->at(p)); };
     request.Refinement.LeastArea = areaFor(sizes->least());
@@ -436,19 +563,42 @@ bool writeMade(const MeshArguments& arguments, const MadeMesh& made, const PathS
   return writeMesh(arguments.Output, made.Points, viewOf(made), options);
 }
 
+/// Whether --size is a number, not a file.
+bool isNumber(const std::string& size)
+{
+  return wholeNumber<double>(size).has_value();
+}
+
+/// Throws IOError unless the output files can be written and differ from the inputs: also the .ele
+/// and .poly files that belong to a .node file. Returns the state of the output's path.
+PathState requireOutputs(const MeshArguments& arguments)
+{
+  std::vector<std::string> named = arguments.Points;
+  named.insert(named.end(),
+    { arguments.Constraints.Lines, arguments.Constraints.Boundary, arguments.Sizes.Depth,
+      isNumber(arguments.Sizes.Size) ? "" : arguments.Sizes.Size, arguments.OpenPolygon });
+  std::vector<std::string> inputs;
+  for (const std::string& input : named)
+  {
+    const std::vector<std::string> files = filesOfMesh(input, false);
+    inputs.insert(inputs.end(), files.begin(), files.end());
+  }
+  std::vector<std::string> outputs = filesOfMesh(arguments.Output, true);
+  outputs.push_back(arguments.Statistics);
+  requireApart(outputs, inputs);
+  return requireWritable(arguments.Output, arguments.Statistics, inputs);
+}
+
 int runMesh(const MeshArguments& arguments)
 {
-  std::vector<std::string> inputs = arguments.Points;
-  inputs.insert(inputs.end(),
-    { arguments.Constraints.Lines, arguments.Constraints.Boundary, arguments.Sizes.Depth,
-      arguments.OpenPolygon });
-  const PathState before = requireWritable(arguments.Output, arguments.Statistics, inputs);
+  const PathState before = requireOutputs(arguments);
   MadeMesh made;
   Stopwatch watch;
   if (!makeMesh(arguments, made) || isInterrupted())
   {
     return reportInterrupt();
   }
+  made.Bandwidth = bandwidthOf(viewOf(made));
   if (!arguments.KeepOrder)
   {
     orderNodes(made);
@@ -470,30 +620,56 @@ int runMesh(const MeshArguments& arguments)
   return Success;
 }
 
+/// Throws CLI::ValidationError for options of sizes that would have no effect or lack another one.
+void requireFittingSizes(const MeshArguments& arguments)
+{
+  const SizeArguments& sizes = arguments.Sizes;
+  const auto needsSize = [&arguments](bool isGiven, const char* option)
+  {
+    refuseIf(
+      isGiven && !arguments.hasSizes(), option, "needs a size: --size, --dis, --wl or --slp");
+  };
+  needsSize(sizes.Least.has_value(), "--min-size");
+  needsSize(sizes.Largest.has_value(), "--max-size");
+  needsSize(sizes.Gradation.has_value(), "--g");
+  needsSize(sizes.Geographic, "--geographic");
+  refuseIf(!sizes.Column.empty() && (sizes.Size.empty() || isNumber(sizes.Size)), "--size-column",
+    "needs --size with a file");
+  refuseIf(sizes.Dis && !sizes.Least, "--dis", "needs --min-size, the size at the shoreline");
+  refuseIf(sizes.WaveLength && sizes.Depth.empty(), "--wl", "needs --depth");
+  refuseIf(sizes.Slope && sizes.Depth.empty(), "--slp", "needs --depth");
+  refuseIf(sizes.Slope && !(sizes.Least && sizes.Largest), "--slp",
+    "needs --min-size and --max-size, because a level bottom allows any size");
+  refuseIf(sizes.Least && sizes.Largest && *sizes.Least > *sizes.Largest, "--min-size",
+    "must not be above --max-size");
+}
+
 /// Throws CLI::ValidationError for options that would have no effect or contradict each other.
 void requireFitting(const MeshArguments& arguments)
 {
   refuseIf(arguments.OutputIs == Opener::Npy, "--output",
     "must not be .npy, which does not store the points that are added");
-  refuseIf(arguments.OpenDepth && arguments.Sizes.Depth.empty(), "--open-deeper", "needs --depth");
+  refuseIf(arguments.KeepBorder && arguments.KeepSegments, "--keep-border",
+    "has no effect beside --keep-segments, which also keeps the border");
+  requireFittingSizes(arguments);
+  const bool hasDepths = !arguments.Sizes.Depth.empty();
+  refuseIf(arguments.OpenDepth && !hasDepths, "--open-deeper", "needs --depth");
   refuseIf(arguments.OpenDepth && !arguments.OpenPolygon.empty(), "--open-deeper",
     "cannot be combined with --open");
-  const bool isOpen = arguments.OpenDepth || !arguments.OpenPolygon.empty();
-  refuseIf(isOpen && !arguments.hasBoundaryLists(),
+  refuseIf(arguments.isOpen() && !arguments.hasBoundaryLists(),
     arguments.OpenDepth ? "--open-deeper" : "--open",
     "needs an output named .14, .grd or .gr3, which lists boundaries");
-  refuseIf(
-    arguments.DepthsAtNodes && arguments.Sizes.Depth.empty(), "--depth-at-nodes", "needs --depth");
-  refuseIf(arguments.Sizes.DepthIsElevation && arguments.Sizes.Depth.empty(), "--positive-up",
-    "needs --depth");
-  refuseIf(!arguments.Sizes.DepthColumn.empty() && arguments.Sizes.Depth.empty(), "--depth-column",
-    "needs --depth");
-  refuseIf((arguments.Sizes.Largest || arguments.Sizes.Gradation || arguments.Sizes.Geographic) &&
-      !arguments.hasSizes(),
-    arguments.Sizes.Largest       ? "--max-size"
-      : arguments.Sizes.Gradation ? "--g"
-                                  : "--geographic",
-    "needs a size: --size, --dis, --wl or --slp");
+  refuseIf(arguments.DepthsAtNodes && !hasDepths, "--depth-at-nodes", "needs --depth");
+  refuseIf(arguments.DepthsAtNodes && !formatOf(arguments.Sizes.Depth, Use::Rasters),
+    "--depth-at-nodes", "needs --depth with a raster");
+  refuseIf(arguments.Sizes.DepthIsElevation && !hasDepths, "--positive-up", "needs --depth");
+  refuseIf(!arguments.Sizes.DepthColumn.empty() && !hasDepths, "--depth-column", "needs --depth");
+}
+
+/// Validates --size on the command line: a path, or a number above 0.
+std::string checkSize(const std::string& text)
+{
+  return isNumber(text) ? checkPositive(text) : std::string();
 }
 
 void addShape(CLI::App& command, MeshArguments& arguments)
@@ -520,7 +696,8 @@ void addShape(CLI::App& command, MeshArguments& arguments)
     "enclose");
   command
     .add_option("--min-edge", arguments.ShortestEdge,
-      "Make no shorter edges; what they would improve is listed (default: 2^-36 of the domain)")
+      "Make no edge shorter than this; --stats lists what this leaves (default: 2^-36 of the "
+      "domain)")
     ->check(checkPositive);
   command.add_option("--max-points", arguments.MostPoints, "Add at most so many points")
     ->check(CLI::PositiveNumber);
@@ -530,21 +707,32 @@ void addShape(CLI::App& command, MeshArguments& arguments)
 
 void addSizes(CLI::App& command, SizeArguments& sizes)
 {
-  command.add_option("--size", sizes.Size,
-    "Length of edges: a number, or a file with lengths: a raster, a mesh or points");
+  command
+    .add_option("--size", sizes.Size,
+      "Length of edges: a number, or a file with lengths: a raster, a mesh or points")
+    ->check(checkSize);
   command.add_option("--size-column", sizes.Column, "The column or array of the file of --size");
-  command.add_option("--dis", sizes.Dis,
-    "Let sizes grow by so much per unit of distance from the shoreline, from --min-size on");
-  command.add_option("--wl", sizes.WaveLength,
-    "At least so many edges to a wavelength of the M2 tide; needs --depth");
-  command.add_option("--slp", sizes.Slope,
-    "At least so many edges to a depth over its slope, times 2 pi; needs --depth");
-  command.add_option("--min-size", sizes.Least, "The smallest size");
-  command.add_option("--max-size,--max-el", sizes.Largest, "The largest size");
-  command.add_option("--g,--grade", sizes.Gradation,
-    "Let sizes at two places differ by at most so much per unit of distance");
+  command
+    .add_option("--dis", sizes.Dis,
+      "Let sizes grow by so much per unit of distance from the shoreline, from --min-size on")
+    ->check(checkPositive);
+  command
+    .add_option("--wl", sizes.WaveLength,
+      "At least so many edges to a wavelength of the M2 tide; needs --depth")
+    ->check(checkPositive);
+  command
+    .add_option("--slp", sizes.Slope,
+      "Let sizes be at most 2 pi depth / (so much x the slope of the bottom); needs --depth")
+    ->check(checkPositive);
+  command.add_option("--min-size", sizes.Least, "The smallest size")->check(checkPositive);
+  command.add_option("--max-size,--max-el", sizes.Largest, "The largest size")
+    ->check(checkPositive);
+  command
+    .add_option("--g,--grade", sizes.Gradation,
+      "Let sizes at two places differ by at most so much per unit of distance")
+    ->check(checkPositive);
   command.add_flag("--geographic", sizes.Geographic,
-    "x and y are degrees of longitude and latitude; sizes are metres");
+    "x and y are degrees of longitude and latitude; sizes are metres, but areas square degrees");
 }
 
 void addModel(CLI::App& command, MeshArguments& arguments)
@@ -571,7 +759,11 @@ void addOptions(CLI::App& command, MeshArguments& arguments)
   command.add_option("input", arguments.Constraints.Lines, "Lines and polygons, see INPUT below")
     ->required();
   addOutput(command, arguments.Output, "The mesh", Use::WritesTriangles);
-  command.add_option("--points", arguments.Points, "Files of points that must be vertices");
+  command
+    .add_option("--points", arguments.Points,
+      "A file of points that must be vertices where they are in the domain; may be given several "
+      "times")
+    ->allow_extra_args(false);
   command.add_option(
     "--boundary", arguments.Constraints.Boundary, "A file of closed lines: the domain is inside");
   addShape(command, arguments);
@@ -601,8 +793,8 @@ Examples:
   tipp mesh lake.shp -o lake.vtu --max-area 500
   tipp mesh coast.gpkg -o coast.14 --min-size 200 --dis 0.15 --max-size 5000
   tipp mesh bay.shp -o fort.14 --size 100 --depth dem.tif --positive-up --open sea.shp
-  tipp mesh part.poly -o part.node --min-angle 33 --stats part.json
-  tipp check part.node --quality 33 --constraints part.poly --listed part.json
+  tipp mesh part.poly -o fine.node --min-angle 33 --stats fine.json
+  tipp check fine.node --quality 33 --constraints part.poly --listed fine.json
 )";
 
 int run(MeshArguments& arguments)
@@ -611,7 +803,7 @@ int run(MeshArguments& arguments)
   requireFitting(arguments);
   try
   {
-    return runMesh(arguments);
+    return isIdleRank() ? Success : runMesh(arguments);
   }
   catch (const WorkAborted&)
   {

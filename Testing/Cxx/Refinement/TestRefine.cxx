@@ -357,6 +357,31 @@ TEST(Refine, NarrowGapsEndAtTheShortestEdge)
   EXPECT_EQ(refined.Mesh.Outside[0].Why, Reason::ShortestEdge);
 }
 
+TEST(Refine, NoEdgeIsMadeThatIsTooShort)
+{
+  RefinementOptions options = withAngle(30, 0.001);
+  options.ShortestEdge = 0.02;
+  for (const LineGraph& graph : { comb(), spiral(), fan(5), randomGraph(3, 20, 10) })
+  {
+    const Refined refined = refineGraph(graph, options);
+    const auto firstAdded = std::int64_t(refined.XY.size() - refined.Mesh.AddedXY.size()) / 2;
+    for (std::size_t t = 0; t < refined.Mesh.triangleCount(); ++t)
+    {
+      for (std::size_t i = 0; i < 3; ++i)
+      {
+        const std::int32_t a = refined.Mesh.Triangles[3 * t + i];
+        const std::int32_t b = refined.Mesh.Triangles[3 * t + (i + 1) % 3];
+        const double x = refined.XY[2 * std::size_t(a)] - refined.XY[2 * std::size_t(b)];
+        const double y = refined.XY[2 * std::size_t(a) + 1] - refined.XY[2 * std::size_t(b) + 1];
+        if (std::max(a, b) >= firstAdded)
+        {
+          ASSERT_GE(std::hypot(x, y), options.ShortestEdge * (1 - 1e-12));
+        }
+      }
+    }
+  }
+}
+
 TEST(Refine, FarFromTheOriginRoundingEndsIt)
 {
   LineGraph graph = fan(20);

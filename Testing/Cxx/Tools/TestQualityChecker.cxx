@@ -365,7 +365,8 @@ TEST(QualityChecker, ExcusesInputAngles)
 
 TEST(QualityChecker, AcceptsListedTriangles)
 {
-  for (const ThinReason reason : { ThinReason::ShortestEdge, ThinReason::Rounding })
+  for (const ThinReason reason : { ThinReason::ShortestEdge, ThinReason::Rounding,
+         ThinReason::KeptSegments, ThinReason::MostPoints })
   {
     CheckedMesh mesh = lowered(29.9);
     mesh.Listed = { { 0, 29.9000004, reason } };

@@ -79,8 +79,20 @@ TEST_F(TippQuality, ReadsTheListOfExceptions)
 {
   this->Folder.file("listed.json",
     R"({"below_bound": [{"triangle": 0, "angle": 26.5650512, "reason": "shortest edge"}]})");
-  this->expect(0, "0 by input angles (proved), 1 by the shortest edge and 0 by rounding",
+  this->expect(0, "0 by input angles (proved); as listed, 1 by the shortest edge, 0 by rounding",
     { "--quality", "30", "--listed", "listed.json", "--constraints", "square.poly" });
+}
+
+TEST_F(TippQuality, CountsWhatTheUserHasForbidden)
+{
+  this->Folder.file("kept.json",
+    R"({"below_bound": [{"triangle": 0, "angle": 26.5650512, "reason": "kept segments"}]})");
+  this->expect(0, "1 by kept segments and 0 by the most points",
+    { "--quality", "30", "--listed", "kept.json", "--constraints", "square.poly" });
+  this->Folder.file("most.json",
+    R"({"below_bound": [{"triangle": 0, "angle": 26.5650512, "reason": "most points"}]})");
+  this->expect(0, "0 by kept segments and 1 by the most points",
+    { "--quality", "30", "--listed", "most.json", "--constraints", "square.poly" });
 }
 
 TEST_F(TippQuality, RefusesADamagedList)

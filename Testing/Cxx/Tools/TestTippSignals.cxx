@@ -139,6 +139,16 @@ TEST_F(TippSignals, InterruptEndsDelaunayOutOfCoreAnywhere)
     "out.tipp", { ".out.tipp.part" });
 }
 
+TEST_F(TippSignals, InterruptEndsMeshAnywhere)
+{
+  this->Folder.file(
+    "square.poly", "4 2 0 0\n1 0 0\n2 9 0\n3 9 9\n4 0 9\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n0\n");
+  for (const std::string name : { "out.vtu", "out.14" })
+  {
+    this->expectClearEndsOf({ "mesh", "square.poly", "-o", name, "--size", "0.1" }, name);
+  }
+}
+
 TEST_F(TippSignals, InterruptEndsFlattenAnywhere)
 {
   this->makeMesh("mesh.vtu");
