@@ -261,6 +261,15 @@ bool Refinement::run()
 {
   this->Refiners.resize(std::size_t(this->Threads));
   this->Expected = this->expectedTriangles();
+  const auto most = double(this->Mesh.Triangles.capacity());
+  if (this->Expected > most && this->Options.MostPoints == 0)
+  {
+    std::ostringstream text;
+    text << "The limits of areas ask for about " << this->Expected
+         << " triangles, and there is room for " << most << "; ask for larger ones.";
+    throw std::length_error(text.str());
+  }
+  this->Expected = std::min(this->Expected, most);
   // Coarse levels first: they cost a thousandth more points, and later ones then work locally.
   constexpr double coarsest = 8192; // triangles
   double coarser = 1;
@@ -412,7 +421,8 @@ struct TriangleShape
   /// The smallest angle in degrees.
   double leastAngle() const
   {
-    const double square = this->Twice * this->Twice * this->shortest() / this->product();
+    const double product = this->product();
+    const double square = product > 0 ? this->Twice * this->Twice * this->shortest() / product : 0;
     return std::asin(std::min(1.0, std::sqrt(square))) / Degree;
   }
 
@@ -493,8 +503,9 @@ void Refinement::judgeResult(
 {
   const std::array<Point2, 3> p = this->pointsOf(triangle);
   const TriangleShape shape(p);
-  const bool isThin =
-    shape.Twice * shape.Twice * shape.shortest() < this->LeastSineSquared * shape.product();
+  const double own = shape.Twice * shape.Twice * shape.shortest();
+  const bool isThin = own < this->LeastSineSquared * shape.product() ||
+    (own == 0 && this->LeastSineSquared > 0); // an underflow, as for a needle
   if (!isThin && shape.Twice <= 2 * this->Rules.LeastArea)
   {
     return;

@@ -220,7 +220,10 @@ private:
   static bool isThin(const std::array<double, 3>& squares, double twice, double sineSquared)
   {
     const double shortest = std::min(std::min(squares[0], squares[1]), squares[2]);
-    return twice * twice * shortest < sineSquared * (squares[0] * squares[1] * squares[2]);
+    const double own = twice * twice * shortest;
+    const double least = sineSquared * (squares[0] * squares[1] * squares[2]);
+    // Both are 0 if they underflow, as for a needle.
+    return own < least || (own == 0 && sineSquared > 0);
   }
 
   bool hasEncroached(

@@ -4,6 +4,7 @@
 
 #include "Adcirc/AdcircBoundaries.h"
 #include "Files/PendingOutput.h"
+#include "Predicates/Geometry.h"
 
 #include <array>
 #include <cstddef>
@@ -74,6 +75,7 @@ struct MeshOptions
   std::vector<std::int64_t> Regions;
   /// Edges of the mesh as pairs of point ids, which Triangle's .poly lists. Empty: no such file.
   std::vector<std::array<std::int64_t, 2>> Segments;
+  std::vector<Point2> Holes; ///< points in holes, for the same file
   /// What may be replaced, as for PendingFile.
   std::optional<PathState> Before;
   /// Called once all is written under a temporary name; returning true discards it.

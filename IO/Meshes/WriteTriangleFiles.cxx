@@ -70,7 +70,8 @@ void writeElementRows(
 }
 
 /// Writes the .poly file, whose vertices are those of the .node file.
-void writeSegments(const OutputFile& file, const std::vector<std::array<std::int64_t, 2>>& segments)
+void writeSegments(const OutputFile& file, const std::vector<std::array<std::int64_t, 2>>& segments,
+  const std::vector<Point2>& holes)
 {
   OutputStream out(file);
   out << "0 2 0 0\n" << segments.size() << " 0\n";
@@ -78,7 +79,14 @@ void writeSegments(const OutputFile& file, const std::vector<std::array<std::int
   {
     out << i + 1 << " " << segments[i][0] + 1 << " " << segments[i][1] + 1 << "\n";
   }
-  out << "0\n";
+  out << holes.size() << "\n";
+  for (std::size_t i = 0; i < holes.size(); ++i)
+  {
+    std::string line = std::to_string(i + 1);
+    appendNumber(line, holes[i].x);
+    appendNumber(line, holes[i].y);
+    out << line << "\n";
+  }
   out.finish();
 }
 
@@ -100,7 +108,7 @@ bool writeTriangleFiles(const std::string& path, const PointTable& points, Trian
   if (!options.Segments.empty())
   {
     segments.emplace(triangleFileBeside(path, ".poly"));
-    writeSegments(segments->file(), options.Segments);
+    writeSegments(segments->file(), options.Segments, options.Holes);
   }
   if (options.Aborted && options.Aborted())
   {

@@ -316,10 +316,21 @@ private:
       }
       return values[at++];
     };
-    const std::int64_t count = take();
+    // VTK follows a negative number out of the array.
+    const auto takeNumber = [&](const char* of) -> std::int64_t
+    {
+      const std::int64_t number = take();
+      if (number < 1)
+      {
+        this->fail(
+          "its polyhedron " + std::to_string(cell) + " has " + std::to_string(number) + of);
+      }
+      return number;
+    };
+    const std::int64_t count = takeNumber(" faces");
     for (std::int64_t face = 0; face < count; ++face)
     {
-      for (std::int64_t corners = take(); corners > 0; --corners)
+      for (std::int64_t corners = takeNumber(" corners of a face"); corners > 0; --corners)
       {
         const std::int64_t id = take();
         if (id < 0 || id >= points)

@@ -232,6 +232,11 @@ class Misuse(unittest.TestCase):
         plain = tipp.triangulate(GRAPH, "pq")
         np.testing.assert_array_equal(plain["triangles"], tipp.triangulate(GRAPH, "pqQVziFl")["triangles"])
 
+    def test_nothing_enclosed_gives_empty_arrays(self):
+        found = tipp.triangulate({"vertices": VERTICES[:4], "segments": SEGMENTS[:3]}, "pq")
+        self.assertEqual(found["triangles"].shape, (0, 3))
+        self.assertEqual(found["segments"].shape, (0, 2))
+
     def test_keys(self):
         self.assert_refused(TypeError, "tri is of type list; give a dictionary", VERTICES)
         self.assert_refused(ValueError, "tri has no key 'vertices'", {})

@@ -28,11 +28,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <filesystem>
 #include <limits>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -84,7 +86,8 @@ struct MadeMesh
   std::vector<std::int64_t> Triangles;
   std::vector<std::int64_t> Regions;
   std::vector<std::array<std::int64_t, 2>> Segments;
-  RefinedMesh Refined; ///< its triangles and points have been moved from
+  std::vector<Point2> Holes; ///< the points given in holes
+  RefinedMesh Refined;       ///< its triangles and points have been moved from
   std::int64_t GivenPoints = 0;
   std::int64_t LeftOut = 0; ///< points that are not in the domain
   std::optional<NodeDepths> Depths;
@@ -535,11 +538,17 @@ bool makeMesh(const MeshArguments& arguments, MadeMesh& made)
   std::vector<std::string> warnings;
   PointsMesh mesh =
     meshPoints(PointsView(made.Points.XY.data(), made.Points.size(), 2), request, warnings);
-  printWarnings(warnings);
   if (mesh.Aborted)
   {
     return false;
   }
+  if (mesh.Mesh.triangleCount() == 0)
+  {
+    throw IOError(arguments.Constraints.name(),
+      "leaves nothing to mesh, so no file is written; close its lines or polygons, give --convex, "
+      "or move the points of holes off the segments.");
+  }
+  printWarnings(warnings);
   appendPoints(mesh, made.Points);
   made.Triangles.assign(mesh.Mesh.Triangles.begin(), mesh.Mesh.Triangles.end());
   made.Regions.assign(mesh.Mesh.RegionOf.begin(), mesh.Mesh.RegionOf.end());
@@ -548,6 +557,7 @@ bool makeMesh(const MeshArguments& arguments, MadeMesh& made)
     made.Segments.push_back({ segment.A, segment.B });
   }
   made.Refined = std::move(mesh.Mesh);
+  made.Holes = source.Holes;
   made.LeftOut = removeUnused(made);
   return true;
 }
@@ -560,6 +570,7 @@ bool writeMade(const MeshArguments& arguments, const MadeMesh& made, const PathS
   options.Regions = made.Regions;
   options.Boundaries = made.Boundaries.Lists;
   options.Segments = made.Segments;
+  options.Holes = made.Holes;
   return writeMesh(arguments.Output, made.Points, viewOf(made), options);
 }
 
@@ -567,6 +578,26 @@ bool writeMade(const MeshArguments& arguments, const MadeMesh& made, const PathS
 bool isNumber(const std::string& size)
 {
   return wholeNumber<double>(size).has_value();
+}
+
+/// Throws IOError if the .poly file beside an output of Triangle's is there without a .node file:
+/// it is a graph that a user has written, and no part of a mesh.
+void requireNoOtherGraph(const MeshArguments& arguments)
+{
+  if (arguments.OutputIs != Opener::Triangle)
+  {
+    return;
+  }
+  namespace fs = std::filesystem;
+  std::error_code ignored;
+  const fs::path graph = fs::path(arguments.Output).replace_extension(".poly");
+  if (fs::exists(graph, ignored) &&
+    !fs::exists(fs::path(arguments.Output).replace_extension(".node"), ignored))
+  {
+    throw IOError(graph.string(),
+      fmt::format("would be replaced by the segments of {}; give the output another name.",
+        arguments.Output));
+  }
 }
 
 /// Throws IOError unless the output files can be written and differ from the inputs: also the .ele
@@ -586,6 +617,7 @@ PathState requireOutputs(const MeshArguments& arguments)
   std::vector<std::string> outputs = filesOfMesh(arguments.Output, true);
   outputs.push_back(arguments.Statistics);
   requireApart(outputs, inputs);
+  requireNoOtherGraph(arguments);
   return requireWritable(arguments.Output, arguments.Statistics, inputs);
 }
 

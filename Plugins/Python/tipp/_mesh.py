@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import sys
 from typing import Any, Callable, Iterable, Mapping, NamedTuple, Sequence, TYPE_CHECKING, Union
 
 import numpy as np
@@ -253,7 +254,10 @@ def _set_size(size: Any, given: int, domain: Domain, options: dict[str, Any]) ->
         return _sampled(size, domain.points)
     if np.ndim(size) == 0:
         h = positive(size, "size")
-        options["max_area"] = min(options["max_area"], math.sqrt(3) / 4 * h * h)
+        area = math.sqrt(3) / 4 * h * h
+        if area < sys.float_info.min:
+            raise ValueError(f"size is {h}; give a larger one.")
+        options["max_area"] = min(options["max_area"], area)
         return None
     lengths = np.ascontiguousarray(converted(size, "size"), np.float64)
     if lengths.shape != (given,):

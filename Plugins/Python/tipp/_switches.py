@@ -282,9 +282,9 @@ def _result(found: Mesh, given: _Input, switches: _Switches, lines: list[np.ndar
     """Returns the dictionary for a mesh whose lines are the segments."""
     letters, count = switches.letters, len(found.points)
     edges = _edges_of(found.cells, count)
-    segments, numbers = found.lines, found.line_data["ConstraintId"]
-    if segments is None:  # VTK has none if there are none
-        segments, numbers = np.zeros((0, 2), np.int32), np.zeros(0, np.int64)
+    segments, numbers = np.zeros((0, 2), np.int32), np.zeros(0, np.int64)
+    if found.lines is not None and "ConstraintId" in found.line_data:  # VTK has none if there are none
+        segments, numbers = found.lines, found.line_data["ConstraintId"]
     of_segments = np.append(given.segment_markers, 0)[np.where(numbers < len(lines), numbers, -1)]
     ends = np.sort(segments, axis=1).astype(np.int64)
     known = np.searchsorted(edges.ends[:, 0] * count + edges.ends[:, 1], ends[:, 0] * count + ends[:, 1])

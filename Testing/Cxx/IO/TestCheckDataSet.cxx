@@ -265,6 +265,10 @@ TEST(CheckDataSet, RefusesFacesOfPolyhedraThatAreCutOrReferToNoPoint)
   bad[6] = 999999999999;
   expectRefusal(polyhedron(bad), "refers to point 999999999999");
   expectRefusal(polyhedron({ 4, 3, 0, 2, 1 }), "faces that are not all there");
+  bad = whole;
+  bad[5] = -2147483648;
+  expectRefusal(polyhedron(bad), "its polyhedron 0 has -2147483648 corners of a face");
+  expectRefusal(polyhedron({ -1, 3, 0, 2, 1 }), "its polyhedron 0 has -1 faces");
 #endif
 }
 

@@ -382,6 +382,29 @@ TEST(Refine, NoEdgeIsMadeThatIsTooShort)
   }
 }
 
+TEST(Refine, ANeedleIsListed)
+{
+  LineGraph graph;
+  graph.addPoint(0, 0);
+  graph.addPoint(1, 0);
+  graph.addPoint(1, 1e-300);
+  graph.close(0);
+  const Refined refined = refineGraph(graph, withAngle(30));
+  ASSERT_EQ(refined.Mesh.Outside.size(), refined.Mesh.triangleCount());
+  EXPECT_LT(refined.Mesh.Outside[0].Angle, 1e-9);
+}
+
+TEST(Refine, MoreTrianglesThanFitAreRefusedAtOnce)
+{
+  for (const double area : { 1e-12, 1e-300, 5e-324 })
+  {
+    EXPECT_THROW(refineGraph(square(), withAngle(30, area)), std::length_error) << area;
+    RefinementOptions options = withAngle(30, area);
+    options.MostPoints = 10;
+    EXPECT_EQ(refineGraph(square(), options).Mesh.AddedOn.size(), 10U) << area;
+  }
+}
+
 TEST(Refine, FarFromTheOriginRoundingEndsIt)
 {
   LineGraph graph = fan(20);

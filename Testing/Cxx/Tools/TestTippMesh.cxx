@@ -14,6 +14,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <fstream>
 #include <limits>
 #include <string>
 #include <vector>
@@ -570,13 +571,32 @@ TEST_F(TippMesh, ResultIsTheSameForAnyNumberOfThreads)
   }
 }
 
-TEST_F(TippMesh, NothingEnclosedIsAWarning)
+TEST_F(TippMesh, NothingEnclosedWritesNoFile)
 {
   this->Folder.file("open.csv", "x1,y1,x2,y2\n0,0,9,0\n9,0,9,9\n9,9,1,9\n");
-  const std::string text = this->make("mesh.vtu", {}, "open.csv");
-  EXPECT_NE(std::string::npos, text.find("No triangles: the lines enclose nothing")) << text;
-  EXPECT_EQ(text.find("warning"), text.rfind("warning")) << text;
-  EXPECT_EQ(0, this->stats()["triangles"]);
+  this->expectFailure(1, "open.csv: leaves nothing to mesh", { "open.csv", "-o", "mesh.vtu" });
+  EXPECT_FALSE(std::ifstream(this->Folder.path("mesh.vtu")));
+}
+
+TEST_F(TippMesh, AnotherGraphIsNotReplaced)
+{
+  this->Folder.file("mine.poly", "0 2 0 0\n0 0\n0\n");
+  this->expectFailure(1, "mine.poly: would be replaced", { "lake.poly", "-o", "mine.node" });
+}
+
+TEST_F(TippMesh, PointsInHolesAreInTheGraph)
+{
+  this->make("again.node");
+  this->make("second.node", {}, "again.poly");
+  this->prove({ "second.node" }, { "--constraints", "again.poly" });
+  EXPECT_NEAR(this->area("again.node"), this->area("second.node"), 1e-9);
+}
+
+TEST_F(TippMesh, AreasThatCannotFitAreRefusedAtOnce)
+{
+  this->expectFailure(
+    1, "ask for about", { "lake.poly", "-o", "mesh.vtu", "--max-area", "1e-300" });
+  this->expectFailure(1, "ask for about", { "lake.poly", "-o", "mesh.vtu", "--size", "1e-300" });
 }
 
 TEST_F(TippMesh, OptionsOfSizesNeedASize)
