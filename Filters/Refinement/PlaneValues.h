@@ -40,7 +40,7 @@ public:
 struct PlaneValuesOptions
 {
   /// The name of the points' column, or of the nodes' array. Empty: one of `Names`, in this order;
-  /// else the only column besides the elevation; else the elevation.
+  /// else the only column besides the elevation; else the elevation. A column depth must be named.
   std::string Column;
   std::vector<std::string> Names = {};
   /// An .npy file is a raster with these outer pixel borders; nullopt: it has points.

@@ -40,6 +40,11 @@ std::size_t chooseColumn(
       return std::size_t(found - names.begin());
     }
   }
+  const std::string depth = "depth";
+  if (names == std::vector<std::string>{ depth } && options.Column.empty())
+  {
+    throw IOError(path, "has the column depth alone; name it if its values are meant.");
+  }
   const std::size_t elevation = findElevation(names);
   const bool hasElevation = elevation < names.size();
   if (options.Column.empty() && names.size() == (hasElevation ? 2 : 1))

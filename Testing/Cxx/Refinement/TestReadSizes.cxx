@@ -174,7 +174,10 @@ TEST_F(ReadSizes, NodesOfAGridAreInterpolatedInItsTriangles)
   const std::string path = this->Folder.file("fort.14",
     "L\n4 6\n1 0 0 1\n2 8 0 1\n3 8 3 1\n4 4 3 1\n5 4 6 5\n6 0 6 5\n"
     "1 3 1 2 4\n2 3 2 3 4\n3 3 1 4 6\n4 3 4 5 6\n0\n0\n0\n0\n");
-  const SizeFunction sizes = this->sizesOf(ofFile(path));
+  SizeArguments arguments = ofFile(path);
+  EXPECT_THROW(this->sizesOf(arguments), IOError) << "depths are no sizes unless it is said";
+  arguments.Column = "depth";
+  const SizeFunction sizes = this->sizesOf(arguments);
   EXPECT_NEAR(1, sizes.at({ 6, 1.5 }), 1e-9);
   EXPECT_NEAR(3, sizes.at({ 4, 4.5 }), 1e-9);
   EXPECT_NEAR(1, sizes.at({ 7, 3.5 }), 1e-9); // from the L's side, not from its convex hull
