@@ -72,6 +72,14 @@ T toScalar(double value)
   }
 }
 
+/// Converts an interpolated value as VTK does: an integer type gets the nearest integer, a half
+/// away from 0.
+template <typename T>
+T roundedLikeVtk(double value)
+{
+  return toScalar<T>(std::is_integral_v<T> ? std::trunc(value + std::copysign(0.5, value)) : value);
+}
+
 /// The Scalar of a VTK_... type constant; nullopt for VTK_BIT and non-numeric types.
 VTKTIPPACCELERATORS_EXPORT std::optional<Scalar> scalarOf(int vtkType);
 

@@ -144,9 +144,7 @@ void interpolateTuples(const std::vector<CrossingPoint>& crossings, std::size_t 
         {
           const double value =
             double(a[c]) * (1 - crossing.Fraction) + double(b[c]) * crossing.Fraction;
-          // Rounds like VTK.
-          *to++ = toScalar<Value>(
-            std::is_integral_v<Value> ? std::trunc(value + std::copysign(0.5, value)) : value);
+          *to++ = roundedLikeVtk<Value>(value);
         }
       }
     });

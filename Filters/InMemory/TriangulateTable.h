@@ -10,10 +10,10 @@
 namespace tipp
 {
 
-/// Appends to a table of points those of the constraints that it does not have yet. In a column for
-/// heights (see isHeightColumn()), a new point has the constraints' height; its other values are
-/// NaN, unless TableConstraints::Surface is set. Returns the constraints between the table's
-/// points.
+/// Appends the constraints' own points to a table of points, except those already in it. In a
+/// height column (see isHeightColumn()), a new point has the height given with the constraints; its
+/// other values are NaN, unless TableConstraints::Surface is set. Returns the constraints between
+/// the table's points.
 VTKTIPPFILTERS_EXPORT SourceConstraints joinTable(
   PointTable& points, const TableConstraints& constraints, int threads);
 

@@ -268,10 +268,10 @@ inline void BlockRefiner::add(Index t)
 /// Returns the index of a vertex in Seen.
 inline std::int32_t BlockRefiner::see(Index vertex, Point2 p)
 {
-  const Point2 place = this->pointOf(vertex);
+  const Point2 position = this->pointOf(vertex);
   SeenVertex& seen = this->Seen[this->SeenEnd];
-  seen.X = place.x - p.x;
-  seen.Y = place.y - p.y;
+  seen.X = position.x - p.x;
+  seen.Y = position.y - p.y;
   seen.Square = seen.X * seen.X + seen.Y * seen.Y;
   seen.Vertex = vertex;
   return std::int32_t(this->SeenEnd++);
@@ -357,11 +357,11 @@ BlockRefiner::Outcome BlockRefiner::grow(Point2 p)
     const int entry = RefinementMesh::cornerOf(outer);
     const Triangle& beside = triangles[std::size_t(RefinementMesh::triangleOf(outer))];
     const Index vertex = beside.Corner[std::size_t(entry)];
-    const Point2 place = points[vertex];
+    const Point2 position = points[vertex];
     // Beyond the end: it becomes a vertex of the cavity if the triangle does.
     SeenVertex& apex = seen[this->SeenEnd];
-    apex.X = place.x - p.x;
-    apex.Y = place.y - p.y;
+    apex.X = position.x - p.x;
+    apex.Y = position.y - p.y;
     apex.Square = apex.X * apex.X + apex.Y * apex.Y;
     apex.Vertex = vertex;
     const double startCross = crossOf(seen[from], apex);
@@ -376,7 +376,7 @@ BlockRefiner::Outcome BlockRefiner::grow(Point2 p)
       outcome = Outcome::Impossible; // around the end of a segment, which hides p
       continue;
     }
-    if (!this->owns(place)) // the block has the edge's ends
+    if (!this->owns(position)) // the block has the edge's ends
     {
       outcome = Outcome::Waits;
       break;

@@ -270,7 +270,7 @@ bool Refinement::run()
     throw std::length_error(text.str());
   }
   this->Expected = std::min(this->Expected, most);
-  // Coarse levels first: they cost a thousandth more points, and later ones then work locally.
+  // Coarse levels first: they cost few points, and later ones then work locally.
   constexpr double coarsest = 8192; // triangles
   double coarser = 1;
   for (double expected = this->Expected;

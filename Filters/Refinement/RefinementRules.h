@@ -35,7 +35,7 @@ public:
     Need Why;
     /// Among thin triangles the one with the shortest edge goes first, among large ones that with
     /// the largest circumcircle, both relative to the size of triangles there: the lower, the
-    /// sooner. Other orders need up to 1.3 times the points.
+    /// sooner. Other orders need more points.
     double Rank;
   };
 

@@ -41,9 +41,7 @@ void blendTuples(const std::vector<PointBlend>& blends, std::size_t points, Scal
         {
           const double value = blend.valueOf(
             [&](PointId id) { return double(tuples[std::size_t(id) * components + c]); });
-          // Rounds like VTK.
-          *to++ = toScalar<Value>(
-            std::is_integral_v<Value> ? std::trunc(value + std::copysign(0.5, value)) : value);
+          *to++ = roundedLikeVtk<Value>(value);
         }
       }
     });

@@ -18,6 +18,24 @@ void appendNumber(std::string& line, double value)
   line.append(text, std::to_chars(text, text + sizeof text, value).ptr);
 }
 
+void appendNode(std::string& line, const PointTable& points, std::size_t node, double third)
+{
+  appendNumber(line, points.XY[2 * node]);
+  appendNumber(line, points.XY[2 * node + 1]);
+  appendNumber(line, third);
+}
+
+bool finishMesh(OutputStream& out, PendingFile& pending, const MeshOptions& options)
+{
+  out.finish();
+  if (options.Aborted && options.Aborted())
+  {
+    return false;
+  }
+  pending.commit();
+  return true;
+}
+
 void requireFinite(const std::string& path, const PointTable& points)
 {
   const auto found = std::find_if(

@@ -2,9 +2,12 @@
 #ifndef tippTextMeshes_h
 #define tippTextMeshes_h
 
+#include "Files/OutputFile.h"
+#include "Files/PendingOutput.h"
 #include "Meshes/MeshOptions.h"
 #include "Points/ReadPoints.h"
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -45,6 +48,10 @@ bool writeTriangleFiles(const std::string& path, const PointTable& points, Trian
 ///@{
 /// Appends a blank and the number.
 void appendNumber(std::string& line, double value);
+/// Appends x and y of a node, and a third number.
+void appendNode(std::string& line, const PointTable& points, std::size_t node, double third);
+/// Ends a file. Returns false, without the file, if options.Aborted returns true.
+bool finishMesh(OutputStream& out, PendingFile& pending, const MeshOptions& options);
 /// Throws IOError if a coordinate is not finite.
 void requireFinite(const std::string& path, const PointTable& points);
 /// The column depth, else the negated elevation, else zeros.

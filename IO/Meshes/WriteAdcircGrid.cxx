@@ -65,9 +65,7 @@ bool writeAdcircGrid(const std::string& path, const PointTable& points, Triangle
   for (std::size_t i = 0; i < points.size(); ++i)
   {
     line = std::to_string(numbers[i]);
-    appendNumber(line, points.XY[2 * i]);
-    appendNumber(line, points.XY[2 * i + 1]);
-    appendNumber(line, depths[i]);
+    appendNode(line, points, i, depths[i]);
     out << line << "\n";
   }
   for (std::size_t t = 0; t < triangles.size(); ++t)
@@ -80,13 +78,7 @@ bool writeAdcircGrid(const std::string& path, const PointTable& points, Triangle
     out << line << "\n";
   }
   out << (frame.Boundaries.empty() ? boundaryLines(options.Boundaries, numbers) : frame.Boundaries);
-  out.finish();
-  if (options.Aborted && options.Aborted())
-  {
-    return false;
-  }
-  pending.commit();
-  return true;
+  return finishMesh(out, pending, options);
 }
 
 } // namespace tipp

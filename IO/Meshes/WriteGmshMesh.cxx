@@ -75,20 +75,12 @@ bool writeGmshMesh(const std::string& path, const PointTable& points, TrianglesV
   for (std::size_t i = 0; i < points.size(); ++i)
   {
     line = std::to_string(i + 1);
-    appendNumber(line, points.XY[2 * i]);
-    appendNumber(line, points.XY[2 * i + 1]);
-    appendNumber(line, elevations[i]);
+    appendNode(line, points, i, elevations[i]);
     out << line << "\n";
   }
   out << "$EndNodes\n";
   writeGmshElements(out, triangles, options);
-  out.finish();
-  if (options.Aborted && options.Aborted())
-  {
-    return false;
-  }
-  pending.commit();
-  return true;
+  return finishMesh(out, pending, options);
 }
 
 } // namespace tipp

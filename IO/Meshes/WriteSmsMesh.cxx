@@ -32,18 +32,10 @@ bool writeSmsMesh(const std::string& path, const PointTable& points, TrianglesVi
   for (std::size_t i = 0; i < points.size(); ++i)
   {
     line = "ND " + std::to_string(i + 1);
-    appendNumber(line, points.XY[2 * i]);
-    appendNumber(line, points.XY[2 * i + 1]);
-    appendNumber(line, elevations[i]);
+    appendNode(line, points, i, elevations[i]);
     out << line << "\n";
   }
-  out.finish();
-  if (options.Aborted && options.Aborted())
-  {
-    return false;
-  }
-  pending.commit();
-  return true;
+  return finishMesh(out, pending, options);
 }
 
 } // namespace tipp

@@ -127,7 +127,22 @@ class vtkTIPPDelaunay3D(_Triangulation):
         self.set_statistics(statistics, outputs)
 
 
-class vtkTIPPOutOfCoreDelaunay2D(Filter):
+class _WithHoles(Filter):
+    """A filter that is told points in holes."""
+
+    def prepare(self) -> None:
+        self.holes: list[tuple[float, float]] = []
+
+    def AddHole(self, x: float, y: float) -> None:
+        self.holes.append((float(x), float(y)))
+        self.Modified()
+
+    def ClearHoles(self) -> None:
+        self.holes.clear()
+        self.Modified()
+
+
+class vtkTIPPOutOfCoreDelaunay2D(_WithHoles):
     """Exact Delaunay triangulation of points in files into a partitioned mesh, in bounded memory. The output is a
     vtkTable with statistics as field data."""
 
@@ -141,17 +156,6 @@ class vtkTIPPOutOfCoreDelaunay2D(Filter):
     LIST = "InputFileName"
     OUTPUTS = ("vtkTable",)
 
-    def prepare(self) -> None:
-        self.holes: list[tuple[float, float]] = []
-
-    def AddHole(self, x: float, y: float) -> None:
-        self.holes.append((float(x), float(y)))
-        self.Modified()
-
-    def ClearHoles(self) -> None:
-        self.holes.clear()
-        self.Modified()
-
     def GetStatistics(self) -> vtkTable:
         return self.GetOutputDataObject(0)
 
@@ -164,7 +168,7 @@ class vtkTIPPOutOfCoreDelaunay2D(Filter):
             add_total(array_of(key), value, totals)
 
 
-class vtkTIPPRefine2D(Filter):
+class vtkTIPPRefine2D(_WithHoles):
     """A mesh of bounded angles and sizes between the lines and polygons of a vtkPolyData. The second input, which is
     optional, is a mesh with the array of the wanted lengths of edges."""
 
@@ -182,16 +186,8 @@ class vtkTIPPRefine2D(Filter):
     OUTPUTS = ("vtkPolyData",)
 
     def prepare(self) -> None:
-        self.holes: list[tuple[float, float]] = []
+        super().prepare()
         self.regions: list[tuple[float, float, float]] = []
-
-    def AddHole(self, x: float, y: float) -> None:
-        self.holes.append((float(x), float(y)))
-        self.Modified()
-
-    def ClearHoles(self) -> None:
-        self.holes.clear()
-        self.Modified()
 
     def AddRegion(self, x: float, y: float, area: float) -> None:
         self.regions.append((float(x), float(y), float(area)))

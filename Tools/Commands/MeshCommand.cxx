@@ -180,13 +180,9 @@ void keepRows(const std::vector<std::size_t>& rows, PointTable& points)
   }
 }
 
-/// Renumbers the points of triangles and segments: point i becomes numbers[i].
-void renumber(const std::vector<std::int64_t>& numbers, MadeMesh& made)
+/// Renumbers the ends of segments: point i becomes numbers[i].
+void renumberSegments(const std::vector<std::int64_t>& numbers, MadeMesh& made)
 {
-  for (std::int64_t& id : made.Triangles)
-  {
-    id = numbers[std::size_t(id)];
-  }
   for (auto& segment : made.Segments)
   {
     segment = { numbers[std::size_t(segment[0])], numbers[std::size_t(segment[1])] };
@@ -214,7 +210,11 @@ std::int64_t removeUnused(MadeMesh& made)
   if (left > 0)
   {
     keepRows(used, made.Points);
-    renumber(numbers, made);
+    for (std::int64_t& id : made.Triangles)
+    {
+      id = numbers[std::size_t(id)];
+    }
+    renumberSegments(numbers, made);
   }
   return left;
 }
@@ -233,11 +233,7 @@ void orderNodes(MadeMesh& made)
   {
     made.Bandwidth = after;
     applyNodeOrder(order, made.Points, made.Triangles);
-    const std::vector<std::int64_t> numbers = inverseOrder(order);
-    for (auto& segment : made.Segments)
-    {
-      segment = { numbers[std::size_t(segment[0])], numbers[std::size_t(segment[1])] };
-    }
+    renumberSegments(inverseOrder(order), made);
   }
 }
 
