@@ -17,7 +17,7 @@ void BlockRefiner::enqueue(Index t)
 BlockRefiner::Outcome BlockRefiner::improve(Index t, RefinementRules::Need need)
 {
   Triangle& triangle = this->at(t);
-  const std::array<Point2, 3> corners = this->pointsOf(triangle);
+  const std::array<Point2, 3> corners = this->Mesh.cornersOf(triangle);
   if (!this->owns(corners))
   {
     return Outcome::Waits;
@@ -203,7 +203,7 @@ BlockRefiner::Outcome BlockRefiner::split(Index t, int corner)
     return Outcome::Impossible;
   }
   if (outer != RefinementMesh::Outside &&
-    !this->owns(this->pointsOf(this->at(RefinementMesh::triangleOf(outer)))))
+    !this->owns(this->Mesh.cornersOf(this->at(RefinementMesh::triangleOf(outer)))))
   {
     return Outcome::Waits;
   }
@@ -470,14 +470,14 @@ void BlockRefiner::insert(Point2 p, Index origin)
 {
   RefinementMesh& mesh = this->Mesh;
   const Index vertex =
-    this->PointPlaces.take(mesh.PointEnd, RefinementMesh::PointsInGroup, mesh.Points.capacity());
+    this->PointPlaces.take(mesh.Points, mesh.PointEnd, RefinementMesh::PointsInGroup);
   mesh.Points[std::size_t(vertex)] = p;
   mesh.Origins[std::size_t(vertex)] = origin;
   const std::size_t count = this->RimEnd;
   while (this->CavityEnd < count)
   {
-    this->Cavity[this->CavityEnd++] = this->TrianglePlaces.take(
-      mesh.TriangleEnd, RefinementMesh::TrianglesInGroup, mesh.Triangles.capacity());
+    this->Cavity[this->CavityEnd++] =
+      this->TrianglePlaces.take(mesh.Triangles, mesh.TriangleEnd, RefinementMesh::TrianglesInGroup);
   }
   Triangle* const triangles = mesh.Triangles.data();
   const Index* const slots = this->Cavity.data();

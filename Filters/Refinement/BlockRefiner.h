@@ -93,10 +93,6 @@ private:
 
   Triangle& at(Index t) { return this->Mesh.Triangles[std::size_t(t)]; }
   Point2 pointOf(Index vertex) const { return this->Mesh.Points[std::size_t(vertex)]; }
-  std::array<Point2, 3> pointsOf(const Triangle& t) const
-  {
-    return { this->pointOf(t.Corner[0]), this->pointOf(t.Corner[1]), this->pointOf(t.Corner[2]) };
-  }
   bool owns(Point2 p) const
   {
     return p.x >= this->Block.Min.x && p.x < this->Block.Max.x && p.y >= this->Block.Min.y &&

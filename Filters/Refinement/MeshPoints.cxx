@@ -3,6 +3,7 @@
 
 #include "Constraints/Insertion/TriangulateConstrained.h"
 #include "Parallel/ParallelFor.h"
+#include "Refinement/MinimumPyramid.h"
 
 #include <algorithm>
 #include <array>
@@ -80,14 +81,20 @@ public:
       least = std::min(least, length);
     }
     this->Least = areaFor(least);
+    this->setBins(surface);
   }
 
-  double at(Point2 position) const
+  /// The area for a triangle, as SizeFunction::forTriangle() gives the size.
+  double at(Point2 centroid, double radius) const
   {
     PointBlend blend{};
-    return this->Surface.find(position, blend)
-      ? areaFor(blend.valueOf([this](PointId id) { return this->Lengths[std::size_t(id)]; }))
+    const double length = this->Surface.find(centroid, blend)
+      ? blend.valueOf([this](PointId id) { return this->Lengths[std::size_t(id)]; })
       : std::numeric_limits<double>::infinity();
+    const double nearby =
+      this->Minima.least(this->binOf({ centroid.x - radius, centroid.y - radius }),
+        this->binOf({ centroid.x + radius, centroid.y + radius }));
+    return areaFor(std::min(length, 2 * nearby));
   }
   double least() const { return this->Least; }
 
@@ -95,9 +102,50 @@ private:
   /// The area of the equilateral triangle with this side.
   static double areaFor(double length) { return std::sqrt(3.0) / 4 * length * length; }
 
+  /// The column and row of the bin with a position.
+  Point2 binOf(Point2 p) const
+  {
+    return { std::floor((p.x - this->Low.x) * this->PerUnit),
+      std::floor((p.y - this->Low.y) * this->PerUnit) };
+  }
+
+  /// Sets for each bin, of which there are about as many as points, the least length in it.
+  void setBins(const LengthSurface& surface)
+  {
+    Box2 box = Box2::empty();
+    for (std::size_t i = 0; i < surface.Points.size(); ++i)
+    {
+      box.extend(surface.Points[i]);
+    }
+    const double longest = std::max(box.width(0), box.width(1));
+    const double shortest = std::max(std::min(box.width(0), box.width(1)), longest / 4096);
+    const double side = std::sqrt(longest * shortest / double(surface.Points.size()));
+    this->Low = box.Min;
+    if (!(side > 0 && std::isfinite(side)))
+    {
+      return; // refine() refuses such a domain
+    }
+    this->PerUnit = 1 / side;
+    const Point2 last = this->binOf(box.Max);
+    const std::size_t columns = std::size_t(last.x) + 1;
+    const std::size_t rows = std::size_t(last.y) + 1;
+    this->Bins.assign(columns * rows, std::numeric_limits<double>::infinity());
+    for (std::size_t i = 0; i < surface.Points.size(); ++i)
+    {
+      const Point2 bin = this->binOf(surface.Points[i]);
+      double& least = this->Bins[std::size_t(bin.y) * columns + std::size_t(bin.x)];
+      least = std::min(least, surface.Lengths[i]);
+    }
+    this->Minima = MinimumPyramid(this->Bins.data(), columns, rows);
+  }
+
   const double* Lengths;
   SurfaceLocator Surface;
   double Least = 0;
+  Point2 Low{ 0, 0 };
+  double PerUnit = 0; ///< bins per unit of the coordinates
+  std::vector<double> Bins;
+  MinimumPyramid Minima;
 };
 
 /// The limits of areas by the lengths of a request.
@@ -134,12 +182,12 @@ public:
     {
       options.LeastArea = field ? std::min(options.LeastArea, field->least()) : options.LeastArea;
     }
-    options.AreaAt = [this, given = std::move(options.AreaAt)](Point2 position)
+    options.AreaAt = [this, given = std::move(options.AreaAt)](Point2 centroid, double radius)
     {
-      double area = given ? given(position) : infinity;
+      double area = given ? given(centroid, radius) : infinity;
       for (const std::optional<AreaField>& field : this->Fields)
       {
-        area = field ? std::min(area, field->at(position)) : area;
+        area = field ? std::min(area, field->at(centroid, radius)) : area;
       }
       return area;
     };
@@ -212,7 +260,7 @@ public:
   AddedBlends(PointsView points, const RefinedMesh& mesh)
     : Points(points)
     , Mesh(mesh)
-    , Beside(mesh.AddedOn.size(), { None, None })
+    , Beside(mesh.addedCount(), { None, None })
   {
   }
 
@@ -220,7 +268,7 @@ public:
   void append(const Buffer<std::int32_t>& start, int threads, std::vector<PointBlend>& blends)
   {
     const std::size_t first = blends.size();
-    const auto added = std::int64_t(this->Mesh.AddedOn.size());
+    const auto added = std::int64_t(this->Mesh.addedCount());
     blends.resize(first + std::size_t(added));
     this->linkSegments();
     for (const IdSegment& segment : this->Mesh.Segments)

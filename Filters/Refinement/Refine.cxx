@@ -34,11 +34,6 @@ Index regionOf(const Triangle& triangle)
   return Index(triangle.State >> RefinementMesh::RegionShift);
 }
 
-Point2 centroid(const std::array<Point2, 3>& p)
-{
-  return { (p[0].x + p[1].x + p[2].x) / 3, (p[0].y + p[1].y + p[2].y) / 3 };
-}
-
 template <typename Items>
 void append(const Items& from, Items& to)
 {
@@ -73,8 +68,8 @@ void requireValid(const RefinementOptions& options)
   }
 }
 
-/// A refinement in levels, each of which halves the sizes, and of which each is made in rounds of
-/// blocks in parallel.
+/// A refinement in levels, each of which makes the edges a quarter as long, in rounds of blocks in
+/// parallel.
 class Refinement
 {
 public:
@@ -100,6 +95,11 @@ private:
   bool runLevel();
   bool runRound(const std::vector<RefinementBlock>& blocks, std::vector<Element>& elements);
   template <typename Item, typename Visit>
+  void forGroups(
+    const std::vector<Index>& groups, std::vector<Item>& chunks, const Visit& visit) const;
+  template <typename Item, typename Visit>
+  void forVertices(std::vector<Item>& chunks, const Visit& visit) const;
+  template <typename Item, typename Visit>
   void forTriangles(std::vector<Item>& chunks, const Visit& visit) const;
   std::vector<Element> collect() const;
   bool isFull() const
@@ -119,12 +119,6 @@ private:
   {
     const double end = this->Expected / 2 + double(this->Given);
     return std::min(1.0, double(this->Mesh.PointEnd) / end);
-  }
-  std::array<Point2, 3> pointsOf(const Triangle& triangle) const
-  {
-    return { this->Mesh.Points[std::size_t(triangle.Corner[0])],
-      this->Mesh.Points[std::size_t(triangle.Corner[1])],
-      this->Mesh.Points[std::size_t(triangle.Corner[2])] };
   }
   Buffer<Index> addPoints(RefinedMesh& result) const;
   void addTriangles(const Buffer<Index>& ids, RefinedMesh& result) const;
@@ -201,37 +195,63 @@ double Refinement::expectedTriangles() const
     {
       continue;
     }
-    const std::array<Point2, 3> p = this->pointsOf(triangle);
-    const double limit = this->Rules.areaLimit(centroid(p), regionOf(triangle));
+    const std::array<Point2, 3> p = this->Mesh.cornersOf(triangle);
+    const double limit = this->Rules.areaLimit(p, regionOf(triangle));
     constexpr double fill = 0.6; // the mean area of a refined mesh's triangles, of the limit
     sum += std::max(1.0, cross(p[1] - p[0], p[2] - p[0]) / 2 / (fill * limit));
   }
   return sum;
 }
 
-/// Calls visit(chunk, slot, triangle) for all triangles in the order of the groups, where threads
-/// take chunks of groups. `chunks`: one item for each chunk.
+/// Calls visit(chunk, group, first place of the next group) for all groups of places, in their
+/// order, where threads take chunks of them. `chunks`: one item for each chunk.
 template <typename Item, typename Visit>
-void Refinement::forTriangles(std::vector<Item>& chunks, const Visit& visit) const
+void Refinement::forGroups(
+  const std::vector<Index>& groups, std::vector<Item>& chunks, const Visit& visit) const
 {
-  const std::vector<Index>& groups = this->Mesh.TriangleGroups;
   constexpr std::int64_t chunk = 256;
   const auto count = std::int64_t(groups.size());
   chunks.resize(std::size_t((count + chunk - 1) / chunk));
   forChunks(count, chunk, this->Threads, {},
     [&](std::int64_t begin, std::int64_t end, int)
     {
-      Item& item = chunks[std::size_t(begin / chunk)];
       for (std::int64_t group = begin; group < end; ++group)
       {
-        const Index first = groups[std::size_t(group)];
-        for (Index t = first; t < first + RefinementMesh::TrianglesInGroup; ++t)
+        const std::int64_t after = std::min(group + 1, count - 1);
+        visit(chunks[std::size_t(begin / chunk)], groups[std::size_t(group)],
+          groups[std::size_t(after)]);
+      }
+    });
+}
+
+/// Calls visit(chunk, vertex) for all places of vertices.
+template <typename Item, typename Visit>
+void Refinement::forVertices(std::vector<Item>& chunks, const Visit& visit) const
+{
+  this->forGroups(this->Mesh.PointGroups, chunks,
+    [&](Item& item, Index first, Index)
+    {
+      for (Index i = first; i < first + RefinementMesh::PointsInGroup; ++i)
+      {
+        visit(item, std::size_t(i));
+      }
+    });
+}
+
+/// Calls visit(chunk, slot, triangle) for all triangles.
+template <typename Item, typename Visit>
+void Refinement::forTriangles(std::vector<Item>& chunks, const Visit& visit) const
+{
+  this->forGroups(this->Mesh.TriangleGroups, chunks,
+    [&](Item& item, Index first, Index after)
+    {
+      for (Index t = first; t < first + RefinementMesh::TrianglesInGroup; ++t)
+      {
+        __builtin_prefetch(&this->Mesh.Triangles[std::size_t(after + (t - first))]);
+        const Triangle& triangle = this->Mesh.Triangles[std::size_t(t)];
+        if ((triangle.State & RefinementMesh::IsLive) != 0)
         {
-          const Triangle& triangle = this->Mesh.Triangles[std::size_t(t)];
-          if ((triangle.State & RefinementMesh::IsLive) != 0)
-          {
-            visit(item, t, triangle);
-          }
+          visit(item, t, triangle);
         }
       }
     });
@@ -272,13 +292,14 @@ bool Refinement::run()
   this->Expected = std::min(this->Expected, most);
   // Coarse levels first: they cost few points, and later ones then work locally.
   constexpr double coarsest = 8192; // triangles
+  constexpr double step = 16;
   double coarser = 1;
   for (double expected = this->Expected;
-       expected > std::max(coarsest, 4 * double(this->Mesh.TriangleEnd)); expected /= 4)
+       expected > std::max(coarsest, step * double(this->Mesh.TriangleEnd)); expected /= step)
   {
-    coarser *= 4;
+    coarser *= step;
   }
-  for (; coarser >= 1; coarser /= 4)
+  for (; coarser >= 1; coarser /= step)
   {
     this->Rules.prepare(coarser);
     ++this->Statistics.Levels;
@@ -365,32 +386,35 @@ Buffer<Index> Refinement::addPoints(RefinedMesh& result) const
   {
     throw std::length_error("The mesh would have too many points.");
   }
-  Buffer<Index> ids(std::size_t(mesh.PointEnd));
-  result.AddedXY = Buffer<double>(2 * std::size_t(mesh.PointEnd)); // more than enough
-  std::size_t added = 0;
-  for (const Index first : mesh.PointGroups)
+  const auto isAdded = [](Index origin)
+  { return origin == RefinementMesh::Free || RefinementMesh::isOnSegment(origin); };
+  std::vector<std::int64_t> chunks; // for each the index of its first added point
+  this->forVertices(chunks,
+    [&](std::int64_t& count, std::size_t vertex)
+    { count += isAdded(mesh.Origins[vertex]) ? 1 : 0; });
+  std::int64_t added = 0;
+  for (std::int64_t& chunk : chunks)
   {
-    for (Index i = first; i < first + RefinementMesh::PointsInGroup; ++i)
+    added += std::exchange(chunk, added);
+  }
+  Buffer<Index> ids(std::size_t(mesh.PointEnd));
+  result.AddedXY = Buffer<double>(2 * std::size_t(added));
+  this->forVertices(chunks,
+    [&](std::int64_t& next, std::size_t vertex)
     {
-      const auto vertex = std::size_t(i);
       const Index origin = mesh.Origins[vertex];
       if (RefinementMesh::isInput(origin))
       {
         ids[vertex] = RefinementMesh::inputId(origin);
       }
-      else if (origin != RefinementMesh::NoVertex)
+      else if (isAdded(origin))
       {
-        ids[vertex] = Index(given + std::int64_t(added));
-        result.AddedXY[2 * added] = mesh.Points[vertex].x;
-        result.AddedXY[2 * added + 1] = mesh.Points[vertex].y;
-        result.AddedOn.push_back(RefinementMesh::isOnSegment(origin)
-            ? mesh.Segments[std::size_t(RefinementMesh::segmentNumber(origin))].Constraint
-            : -1);
-        ++added;
+        const auto i = std::size_t(next++);
+        ids[vertex] = Index(given + std::int64_t(i));
+        result.AddedXY[2 * i] = mesh.Points[vertex].x;
+        result.AddedXY[2 * i + 1] = mesh.Points[vertex].y;
       }
-    }
-  }
-  result.AddedXY.truncate(2 * added);
+    });
   return ids;
 }
 
@@ -501,7 +525,7 @@ void Refinement::addSegments(
 void Refinement::judgeResult(
   std::int64_t i, const Triangle& triangle, std::vector<TriangleOutside>& outside) const
 {
-  const std::array<Point2, 3> p = this->pointsOf(triangle);
+  const std::array<Point2, 3> p = this->Mesh.cornersOf(triangle);
   const TriangleShape shape(p);
   const double own = shape.Twice * shape.Twice * shape.shortest();
   const bool isThin = own < this->LeastSineSquared * shape.product() ||
@@ -510,7 +534,7 @@ void Refinement::judgeResult(
   {
     return;
   }
-  if (isThin || shape.Twice > 2 * this->Rules.areaLimit(centroid(p), regionOf(triangle)))
+  if (isThin || shape.Twice > 2 * this->Rules.areaLimit(p, regionOf(triangle)))
   {
     outside.push_back({ i, shape.leastAngle(), shape.Twice / 2,
       this->reasonFor(triangle, isThin, shape.leastCorner()) });

@@ -46,9 +46,6 @@ struct RefinedMesh
 {
   /// x and y of the added points. Their ids follow those of the points given.
   Buffer<double> AddedXY;
-  /// By added point: the constraint that it lies on, except for rounding; -1: in the interior, or
-  /// on an edge of the convex hull.
-  std::vector<std::int64_t> AddedOn;
   /// Three point ids each, counter-clockwise.
   Buffer<std::int32_t> Triangles;
   /// By triangle: the index of its region among RefinementOptions::Regions, or -1. Empty if no
@@ -60,6 +57,7 @@ struct RefinedMesh
   RefinementStatistics Statistics;
   bool Aborted = false; ///< Progress stopped the run; there are no triangles then
 
+  std::size_t addedCount() const { return this->AddedXY.size() / 2; }
   std::size_t triangleCount() const { return this->Triangles.size() / 3; }
 };
 

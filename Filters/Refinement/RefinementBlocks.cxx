@@ -128,7 +128,7 @@ std::vector<RefinementBlock> makeBlocks(const RefinementMesh& mesh,
   int threads)
 {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  constexpr std::size_t smallest = 2048; // so that a block fits into a processor's own cache
+  constexpr std::size_t smallest = 1024; // so that a block fits into a processor's own cache
   const Box2 plane{ { -infinity, -infinity }, { infinity, infinity } };
   const std::size_t size = std::max(smallest, elements.size() / most + 1);
   if (elements.size() <= 2 * size || most == 1)

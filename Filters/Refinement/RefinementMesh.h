@@ -4,7 +4,9 @@
 
 #include "Arrays/ReservedArray.h"
 #include "Predicates/Geometry.h"
+#include "Triangulation/PopulatePages.h"
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstddef>
@@ -101,6 +103,13 @@ public:
     return (triangle.State & IsLive) != 0 && triangle.Version == version;
   }
 
+  std::array<Point2, 3> cornersOf(const Triangle& triangle) const
+  {
+    return { this->Points[std::size_t(triangle.Corner[0])],
+      this->Points[std::size_t(triangle.Corner[1])],
+      this->Points[std::size_t(triangle.Corner[2])] };
+  }
+
   /// The input segment that the subsegment between two vertices is part of.
   Index segmentOf(Index a, Index b) const
   {
@@ -154,15 +163,22 @@ private:
 class ArrayPlaces
 {
 public:
-  /// `end`: one past the groups that all threads have taken.
-  std::int32_t take(std::atomic<std::int64_t>& end, std::int32_t group, std::size_t capacity)
+  /// `end`: one past the groups of `array` that all threads have taken.
+  template <typename T>
+  std::int32_t take(ReservedArray<T>& array, std::atomic<std::int64_t>& end, std::int32_t group)
   {
     if (this->Left == 0)
     {
       const std::int64_t first = end.fetch_add(group, std::memory_order_relaxed);
-      if (std::size_t(first + group) > capacity)
+      if (std::size_t(first + group) > array.capacity())
       {
         throw std::length_error("The mesh would have too many triangles for the memory.");
+      }
+      constexpr std::int64_t committed = 8192; // at once
+      if (first % committed == 0)
+      {
+        const std::int64_t last = std::min(first + committed, std::int64_t(array.capacity()));
+        populatePages(array.data() + first, std::size_t(last - first) * sizeof(T));
       }
       this->Next = std::int32_t(first);
       this->Left = group;

@@ -30,9 +30,9 @@ struct RefinementOptions
   double MinimumAngle = 30;
   /// No triangle is larger, in the square of the points' unit.
   double LargestArea = std::numeric_limits<double>::infinity();
-  /// A triangle's further limit: the area at its centroid. It is called from several threads, and
-  /// must depend on the position only. Empty: none.
-  std::function<double(Point2)> AreaAt;
+  /// A triangle's further limit: the area for its centroid and the distance to its farthest corner.
+  /// It is called from several threads, and must depend on these only. Empty: none.
+  std::function<double(Point2, double)> AreaAt;
   double LeastArea = 0; ///< a lower bound of AreaAt, which spares calls; 0: unknown
   std::vector<RefinementRegion> Regions;
   /// No edge is made that is shorter. What cannot be refined without one is left as it is. 0: 2^-36

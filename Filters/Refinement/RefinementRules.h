@@ -41,7 +41,7 @@ public:
 
   double MinimumAngle = 30; ///< degrees
   double LargestArea = std::numeric_limits<double>::infinity();
-  std::function<double(Point2)> AreaAt;                       ///< further limit; empty: none
+  std::function<double(Point2, double)> AreaAt; ///< as in RefinementOptions; empty: none
   double LeastArea = std::numeric_limits<double>::infinity(); ///< lower bound of all limits
   std::vector<double> RegionAreas;                            ///< by region: further limit
   double ShortestEdge = 0;
@@ -74,12 +74,20 @@ public:
     return this->isInLens(u.x * v.x + u.y * v.y, u.x * u.x + u.y * u.y, v.x * v.x + v.y * v.y);
   }
 
-  double areaLimit(Point2 centre, Index region) const
+  /// The limit of the area of a triangle.
+  double areaLimit(const std::array<Point2, 3>& p, Index region) const
   {
     double limit = this->LargestArea;
     if (this->AreaAt)
     {
-      limit = std::min(limit, this->AreaAt(centre));
+      const Point2 centroid{ (p[0].x + p[1].x + p[2].x) / 3, (p[0].y + p[1].y + p[2].y) / 3 };
+      double square = 0;
+      for (const Point2 corner : p)
+      {
+        const Point2 away = corner - centroid;
+        square = std::max(square, away.x * away.x + away.y * away.y);
+      }
+      limit = std::min(limit, this->AreaAt(centroid, std::sqrt(square)));
     }
     if (!this->RegionAreas.empty())
     {
@@ -90,9 +98,7 @@ public:
 
   Verdict judge(const RefinementMesh& mesh, const RefinementMesh::Triangle& triangle) const
   {
-    const Point2 a = mesh.Points[std::size_t(triangle.Corner[0])];
-    const Point2 b = mesh.Points[std::size_t(triangle.Corner[1])];
-    const Point2 c = mesh.Points[std::size_t(triangle.Corner[2])];
+    const auto [a, b, c] = mesh.cornersOf(triangle);
     const Point2 ab = b - a;
     const Point2 ac = c - a;
     const Point2 bc = c - b;
@@ -132,7 +138,8 @@ public:
     {
       return { Need::None, 0 };
     }
-    const double limit = this->areaLimit(mesh, triangle);
+    const double limit = this->areaLimit(
+      mesh.cornersOf(triangle), Index(triangle.State >> RefinementMesh::RegionShift));
     const double unit = std::isfinite(limit) ? limit : 1;
     const int s = squares[0] == shortest ? 0 : squares[1] == shortest ? 1 : 2;
     if (isThin && !this->isForced(mesh, triangle, s))
@@ -141,8 +148,8 @@ public:
     }
     if (twice > 2 * limit)
     {
-      const double squareOfDiameter = squares[0] * squares[1] * squares[2] / (twice * twice);
-      return { Need::Large, unit / squareOfDiameter };
+      // The square of the diameter is the product of the squares over the square of twice the area.
+      return { Need::Large, unit * (twice * twice) / (squares[0] * squares[1] * squares[2]) };
     }
     return { Need::None, 0 };
   }
@@ -185,23 +192,22 @@ public:
   /// off-center (Off-centers: a new type of Steiner points, 2004).
   Point2 pointFor(const std::array<Point2, 3>& p) const
   {
-    std::array<double, 3> squares;
-    for (int i = 0; i < 3; ++i)
-    {
-      const Point2 edge =
-        p[std::size_t(RefinementMesh::previous(i))] - p[std::size_t(RefinementMesh::next(i))];
-      squares[std::size_t(i)] = edge.x * edge.x + edge.y * edge.y;
-    }
-    int s = squares[1] < squares[0] ? 1 : 0;
-    s = squares[2] < squares[std::size_t(s)] ? 2 : s;
-    const Point2 apex = p[std::size_t(s)];
-    const Point2 from = p[std::size_t(RefinementMesh::next(s))];
-    const Point2 to = p[std::size_t(RefinementMesh::previous(s))];
-    const Point2 u = from - apex;
-    const Point2 v = to - apex;
-    // The centre is half the edge's length times the cotangent of the angle at the apex away.
-    const double away = std::min((u.x * v.x + u.y * v.y) / (2 * cross(u, v)), this->OffCenter);
-    const Point2 edge = to - from;
+    const Point2 ab = p[1] - p[0];
+    const Point2 bc = p[2] - p[1];
+    const Point2 ca = p[0] - p[2];
+    const double squareA = bc.x * bc.x + bc.y * bc.y;
+    const double squareB = ca.x * ca.x + ca.y * ca.y;
+    const double squareC = ab.x * ab.x + ab.y * ab.y;
+    const bool isB = squareB < squareA;
+    const bool isC = squareC < (isB ? squareB : squareA);
+    const Point2 from = isC ? p[0] : isB ? p[2] : p[1];
+    const Point2 edge = isC ? ab : isB ? ca : bc;
+    // The centre is half the edge's length times the cotangent of the angle opposite to it away.
+    const double product = (squareA + squareB + squareC) / 2 -
+      (isC      ? squareC
+          : isB ? squareB
+                : squareA);
+    const double away = std::min(product / (2 * cross(ab, bc)), this->OffCenter);
     return { from.x + (edge.x / 2 - edge.y * away), from.y + (edge.y / 2 + edge.x * away) };
   }
 
@@ -240,19 +246,6 @@ private:
       }
     }
     return false;
-  }
-
-  double areaLimit(const RefinementMesh& mesh, const RefinementMesh::Triangle& triangle) const
-  {
-    const auto region = Index(triangle.State >> RefinementMesh::RegionShift);
-    if (!this->AreaAt)
-    {
-      return this->areaLimit(Point2(), region);
-    }
-    const Point2 a = mesh.Points[std::size_t(triangle.Corner[0])];
-    const Point2 b = mesh.Points[std::size_t(triangle.Corner[1])];
-    const Point2 c = mesh.Points[std::size_t(triangle.Corner[2])];
-    return this->areaLimit({ (a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3 }, region);
   }
 
   double SineSquared = 0;

@@ -3,6 +3,7 @@
 #define tippSizeFunction_h
 
 #include "Predicates/Geometry.h"
+#include "Refinement/MinimumPyramid.h"
 #include "Refinement/SizeLattice.h"
 #include "vtkTIPPFiltersModule.h"
 
@@ -43,6 +44,16 @@ public:
   /// allocates nothing.
   double at(Point2 p) const { return this->Sizes.empty() ? this->Least : this->interpolated(p); }
 
+  /// Returns the size for a triangle with this centroid, of which no corner is farther away than
+  /// `radius`: that at the centroid, or twice the least one at a node of the lattice within the
+  /// triangle's box or a little beyond it, whichever is less. So triangles do not miss a few small
+  /// sizes amid large ones.
+  double forTriangle(Point2 centroid, double radius) const
+  {
+    const double size = this->at(centroid);
+    return this->Steepest * radius <= size / 2 ? size : this->leastNear(centroid, radius, size);
+  }
+
   /// Returns the least value that at() can return.
   double least() const { return this->Least; }
 
@@ -51,6 +62,8 @@ public:
   double spacing() const { return this->Spacing; }
 
 private:
+  double leastNear(Point2 centroid, double radius, double size) const;
+
   double interpolated(Point2 p) const
   {
     // With this order of arguments NaN becomes 0.
@@ -75,6 +88,8 @@ private:
   Point2 Last{ 0, 0 };    ///< index of the last column and row
   double Least;
   double Spacing = 0;
+  double Steepest = 0; ///< upper bound of the change of the size with the distance
+  MinimumPyramid Minima;
 };
 
 } // namespace tipp

@@ -527,7 +527,8 @@ bool makeMesh(const MeshArguments& arguments, MadeMesh& made)
     constexpr double share = 0.3;
     sizes = makeSizes(arguments, made.Points, source, partOf(progress, 0, share));
     const auto areaFor = [](double size) { return std::sqrt(3.0) / 4 * size * size; };
-    request.Refinement.AreaAt = [&sizes, areaFor](Point2 p) { return areaFor(sizes->at(p)); };
+    request.Refinement.AreaAt = [&sizes, areaFor](Point2 centroid, double radius)
+    { return areaFor(sizes->forTriangle(centroid, radius)); };
     request.Refinement.LeastArea = areaFor(sizes->least());
     request.Refinement.Progress = partOf(progress, share, 1);
   }

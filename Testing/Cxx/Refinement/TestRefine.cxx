@@ -253,7 +253,7 @@ TEST(Refine, AreasFollowAFunction)
   const LineGraph graph = square();
   RefinementOptions options = withAngle(30);
   const auto limit = [](double x) { return 0.0001 + 0.01 * x * x; };
-  options.AreaAt = [&](Point2 p) { return limit(p.x); };
+  options.AreaAt = [&](Point2 p, double) { return limit(p.x); };
   options.LeastArea = 0.0001;
   const Refined refined = refineGraph(graph, options);
   EXPECT_TRUE(refined.Mesh.Outside.empty());
@@ -268,32 +268,47 @@ TEST(Refine, AreasFollowAFunction)
   }
 }
 
-TEST(Refine, AddedPointsKnowTheirConstraints)
+TEST(Refine, FewSmallTrianglesAmidLargeOnesAreNotMissed)
+{
+  const LineGraph graph = square();
+  RefinementOptions options = withAngle(30);
+  constexpr Point2 spot{ 0.3141, 0.2718 };
+  constexpr double reach = 0.004;
+  constexpr double small = 1e-7;
+  constexpr double large = 0.01;
+  // The limit is small in a square around the spot only, which is a thousandth of the domain.
+  options.AreaAt = [&](Point2 p, double radius)
+  {
+    const double away = std::max(std::fabs(p.x - spot.x), std::fabs(p.y - spot.y));
+    return away < reach ? small : away < reach + radius ? 4 * small : large;
+  };
+  options.LeastArea = small;
+  const Refined refined = refineGraph(graph, options);
+  EXPECT_TRUE(isRight(graph, refined, "30"));
+  std::int64_t inside = 0;
+  for (std::size_t i = 0; i < refined.Mesh.addedCount(); ++i)
+  {
+    inside += std::fabs(refined.Mesh.AddedXY[2 * i] - spot.x) < reach &&
+      std::fabs(refined.Mesh.AddedXY[2 * i + 1] - spot.y) < reach;
+  }
+  EXPECT_GT(inside, 300); // 64e-6 / 1e-7 / 2, at least
+  EXPECT_LT(refined.Mesh.addedCount(), 20000U);
+}
+
+TEST(Refine, SubsegmentsKnowTheirConstraints)
 {
   LineGraph graph = square();
   graph.addPoint(0.2, 0.5);
   graph.addPoint(0.8, 0.5);
   graph.addSegment(4, 5); // the fifth constraint
   const Refined refined = refineGraph(graph, withAngle(30, 0.001));
-  const std::size_t given = 2 * 6;
-  int on = 0;
-  for (std::size_t i = 0; i < refined.Mesh.AddedOn.size(); ++i)
-  {
-    const double x = refined.XY[given + 2 * i];
-    const double y = refined.XY[given + 2 * i + 1];
-    if (refined.Mesh.AddedOn[i] == 4)
-    {
-      ++on;
-      EXPECT_EQ(y, 0.5);
-    }
-    else if (refined.Mesh.AddedOn[i] < 0)
-    {
-      EXPECT_TRUE(x > 0 && x < 1 && y > 0 && y < 1);
-    }
-  }
-  EXPECT_GT(on, 5);
   const auto chain = segmentsOf(refined.Mesh.Segments, 4, 5);
-  EXPECT_EQ(int(chain.size()), on + 1);
+  EXPECT_GT(chain.size(), 5U);
+  for (const IdSegment& segment : refined.Mesh.Segments)
+  {
+    const auto y = [&](PointId id) { return refined.XY[2 * std::size_t(id) + 1]; };
+    EXPECT_EQ(segment.Constraint == 4, y(segment.A) == 0.5 && y(segment.B) == 0.5);
+  }
 }
 
 TEST(Refine, BorderAndSegmentsCanBeKept)
@@ -310,10 +325,13 @@ TEST(Refine, BorderAndSegmentsCanBeKept)
   graph.addPoint(0.2, 0.5);
   graph.addPoint(0.8, 0.52);
   graph.addSegment(40, 41);
+  // A constraint with k points on it is a chain of k + 1 subsegments.
   const auto countOn = [](const Refined& refined, std::int64_t begin, std::int64_t end)
   {
-    return std::count_if(refined.Mesh.AddedOn.begin(), refined.Mesh.AddedOn.end(),
-      [&](std::int64_t on) { return on >= begin && on < end; });
+    return std::count_if(refined.Mesh.Segments.begin(), refined.Mesh.Segments.end(),
+             [&](const IdSegment& segment)
+             { return segment.Constraint >= begin && segment.Constraint < end; }) -
+      (end - begin);
   };
   RefinementOptions options = withAngle(30, 0.001);
   EXPECT_GT(countOn(refineGraph(graph, options), 0, 40), 0);
@@ -334,7 +352,7 @@ TEST(Refine, StopsAtTheLargestNumberOfPoints)
   options.MostPoints = 1234;
   options.Threads = 4;
   const Refined refined = refineGraph(graph, options);
-  EXPECT_EQ(refined.Mesh.AddedXY.size() / 2, 1234U);
+  EXPECT_EQ(refined.Mesh.addedCount(), 1234U);
   ASSERT_FALSE(refined.Mesh.Outside.empty());
   EXPECT_EQ(refined.Mesh.Outside[0].Why, Reason::MostPoints);
 }
@@ -401,7 +419,7 @@ TEST(Refine, MoreTrianglesThanFitAreRefusedAtOnce)
     EXPECT_THROW(refineGraph(square(), withAngle(30, area)), std::length_error) << area;
     RefinementOptions options = withAngle(30, area);
     options.MostPoints = 10;
-    EXPECT_EQ(refineGraph(square(), options).Mesh.AddedOn.size(), 10U) << area;
+    EXPECT_EQ(refineGraph(square(), options).Mesh.addedCount(), 10U) << area;
   }
 }
 

@@ -174,6 +174,51 @@ TEST(SizeFunction, LeastIsTheLeastOfAll)
   EXPECT_GE(sizes.least(), 0.5);
 }
 
+TEST(SizeFunction, TrianglesDoNotMissASmallSizeAmidLargeOnes)
+{
+  const SizeLattice lattice(domain, 0.05, manyNodes, PlaneKind::Projected);
+  std::vector<double> sizes(lattice.nodes(), 2);
+  const Point2 spot = lattice.at(41, 70);
+  sizes[lattice.index(41, 70)] = 0.01;
+  const SizeFunction function(lattice, sizes);
+  std::mt19937 random(5);
+  for (int i = 0; i < 10000; ++i)
+  {
+    const Point2 p = randomPlace(random, domain);
+    const double radius = std::exp2(uniform(random, -8, 3));
+    const double away = std::max(std::fabs(p.x - spot.x), std::fabs(p.y - spot.y));
+    const double size = function.forTriangle(p, radius);
+    if (away <= radius)
+    {
+      ASSERT_LE(size, 0.02);
+    }
+    else if (away > 3 * radius + 0.2) // beyond the part that the search may reach
+    {
+      ASSERT_EQ(size, function.at(p));
+    }
+  }
+}
+
+TEST(SizeFunction, SlowlyChangingSizesOfTrianglesAreThoseAtTheirCentroids)
+{
+  const SizeLattice lattice(domain, 0.1, manyNodes, PlaneKind::Projected);
+  std::vector<double> sizes;
+  for (int row = 0; row < lattice.rows(); ++row)
+  {
+    for (int column = 0; column < lattice.columns(); ++column)
+    {
+      sizes.push_back(1 + 0.1 * (lattice.at(column, row).x - domain.Min.x));
+    }
+  }
+  const SizeFunction function(lattice, sizes);
+  std::mt19937 random(6);
+  for (int i = 0; i < 1000; ++i)
+  {
+    const Point2 p = randomPlace(random, domain);
+    ASSERT_EQ(function.forTriangle(p, 4), function.at(p));
+  }
+}
+
 TEST(SizeFunction, NodesAreLimited)
 {
   SizeArguments arguments = withDistance(0.001, 0.2);
