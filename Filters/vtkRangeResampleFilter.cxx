@@ -158,6 +158,10 @@ public:
             "with NumberOfInputPieces above 1 the bounds of the input are not "
             "known in time: turn UseInputBounds off, set SamplingBounds.");
         }
+        if (this->Filter->Method == METHOD_CONSERVATIVE && this->severalRanks())
+        {
+          throw std::runtime_error("conservative means are computed on one rank: run it alone.");
+        }
         withMemoryAdvice([&] { this->makeImage(this->meshesIn(input), outInfo); });
       });
   }
@@ -263,6 +267,8 @@ private:
     settings.Device.Name = filter->DeviceName;
     settings.Threads = tipp::threadCount(filter->NumberOfThreads);
     settings.Merging = true;
+    settings.Conservative = filter->Method == METHOD_CONSERVATIVE;
+    settings.CoveredShare = filter->PassCoveredShare;
     return settings;
   }
 
@@ -465,6 +471,8 @@ void vtkRangeResampleFilter::PrintSelf(ostream& os, vtkIndent indent)
   vtkTIPPPrintMacro(NoDataValue);
   vtkTIPPPrintMacro(SampleElevation);
   vtkTIPPPrintMacro(PassFieldArrays);
+  vtkTIPPPrintMacro(Method);
+  vtkTIPPPrintMacro(PassCoveredShare);
   vtkTIPPPrintMacro(Device);
   vtkTIPPPrintMacro(DeviceIndex);
   vtkTIPPPrintMacro(DeviceName);

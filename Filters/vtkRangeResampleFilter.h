@@ -170,6 +170,36 @@ public:
   vtkTIPPSwitchMacro(SampleElevation, bool);
   ///@}
 
+  /**
+   * What a sample is.
+   */
+  enum MethodType
+  {
+    METHOD_LINEAR = 0,      ///< the value of the cell at its position, linear in the cell
+    METHOD_CONSERVATIVE = 1 ///< the mean over the covered part of its pixel
+  };
+
+  ///@{
+  /**
+   * A MethodType; METHOD_LINEAR by default. METHOD_CONSERVATIVE computes exact means of the values
+   * of surface cells, and of point data as linear in each triangle, over the part of each pixel
+   * that cells cover. A pixel has a sample as its centre and reaches half way to the next ones. The
+   * results are doubles, and the sum of mean, area and covered share over all pixels is the
+   * integral over the mesh, up to rounding. Where cells overlap, each counts. It needs one layer of
+   * samples, two samples or a Delta along both axes, and one rank, and runs on threads whatever the
+   * Device.
+   */
+  vtkTIPPClampedMacro(Method, int, METHOD_LINEAR, METHOD_CONSERVATIVE);
+  ///@}
+
+  ///@{
+  /**
+   * Whether METHOD_CONSERVATIVE adds the array "CoveredShare", the share of each pixel that cells
+   * cover, from 0 to 1. Off by default.
+   */
+  vtkTIPPSwitchMacro(PassCoveredShare, bool);
+  ///@}
+
   ///@{
   /**
    * Whether the input's field data is passed on. On by default.
@@ -269,6 +299,8 @@ protected:
   double NoDataValue = -99999;
   bool SampleElevation = true;
   bool PassFieldArrays = true;
+  int Method = METHOD_LINEAR;
+  bool PassCoveredShare = false;
   int Device = DEVICE_AUTO;
   int DeviceIndex = -1;
   std::string DeviceName;

@@ -50,6 +50,11 @@ void flattenVtkFile(const std::string& path, const std::function<void(const Flat
   refuseVtkMesh(path);
 }
 
+void addRemapCommand(CLI::App& app, int&)
+{
+  addLeftOut(app, "remap", "'tipp remap' needs VTK, and this tipp was built without it.");
+}
+
 void addResampleCommand(CLI::App& app, int&)
 {
   addLeftOut(app, "resample",

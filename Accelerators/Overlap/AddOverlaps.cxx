@@ -60,10 +60,9 @@ bool addOverlaps(const SimplexMesh& targets, const OverlapSource& source, Overla
                                     : addWith<3>(targets, source, sums, threads, report);
 }
 
-std::vector<double> sharesOfTriangles(
-  const SimplexMesh& targets, const OverlapSums& sums, int threads)
+std::vector<double> areasOfTriangles(const SimplexMesh& targets, int threads)
 {
-  std::vector<double> shares(std::size_t(targets.Cells), 0);
+  std::vector<double> areas(std::size_t(targets.Cells), 0);
   const TriangleReader reader(targets);
   forIndices(
     targets.Cells,
@@ -72,13 +71,23 @@ std::vector<double> sharesOfTriangles(
       PlaneTriangle triangle;
       if (reader.read(i, triangle))
       {
-        const double whole =
-          cross(triangle.At[1] - triangle.At[0], triangle.At[2] - triangle.At[0]) / 2;
-        // Of a triangle whose area is only rounding, the share is that of its parts' sum.
-        shares[std::size_t(i)] = whole > 0 ? sums.areaOf(i) / whole : 0;
+        const double twice =
+          cross(triangle.At[1] - triangle.At[0], triangle.At[2] - triangle.At[0]);
+        areas[std::size_t(i)] = std::max(twice / 2, 0.0); // it may be only rounding
       }
     },
     threads);
+  return areas;
+}
+
+std::vector<double> sharesOfTriangles(
+  const SimplexMesh& targets, const OverlapSums& sums, int threads)
+{
+  std::vector<double> shares = areasOfTriangles(targets, threads);
+  for (std::size_t i = 0; i < shares.size(); ++i)
+  {
+    shares[i] = shares[i] > 0 ? sums.areaOf(std::int64_t(i)) / shares[i] : 0;
+  }
   return shares;
 }
 

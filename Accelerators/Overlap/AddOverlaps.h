@@ -41,6 +41,10 @@ VTKTIPPACCELERATORS_EXPORT bool addPixels(const Lattice& lattice, const OverlapS
 VTKTIPPACCELERATORS_EXPORT std::vector<double> sharesOfPixels(
   const Lattice& lattice, const int (&axes)[2], const OverlapSums& sums, int threads);
 
+/// The area of each triangle; 0 for those that addOverlaps() leaves out.
+VTKTIPPACCELERATORS_EXPORT std::vector<double> areasOfTriangles(
+  const SimplexMesh& targets, int threads);
+
 /// The share of each triangle that is covered, by triangle, for sums of addOverlaps(). 0 for
 /// triangles without area.
 VTKTIPPACCELERATORS_EXPORT std::vector<double> sharesOfTriangles(

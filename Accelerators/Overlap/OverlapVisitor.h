@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -42,8 +43,14 @@ public:
     {
       throw std::length_error("A mesh of more than 2147483647 triangles cannot be a target.");
     }
-    this->Order = nearOrder<2>(
-      targets.Cells, threads, [this](std::int64_t i) { return this->Targets.middleOf(i); });
+    const Box2 all = boundsOf<2>(
+      sources.Cells, threads, [this](std::int64_t i) { return this->Sources.boxOf(i); });
+    this->Order = nearOrder<2>(targets.Cells, threads,
+      [this, &all](std::int64_t i)
+      {
+        const Box2 box = this->Targets.boxOf(i);
+        return box.meets(all) ? box.center() : Point2{ NAN, NAN }; // left out
+      });
   }
 
   const TriangleReader& targets() const { return this->Targets; }

@@ -75,9 +75,6 @@ public:
     return box;
   }
 
-  /// The middle of boxOf(); NaN if the cell is hidden.
-  Point2 middleOf(std::int64_t cell) const { return this->boxOf(cell).center(); }
-
   /// Prefetches a cell's points, which may be anywhere in memory. Always inlined, because a
   /// compiler may drop a call to a function that only prefetches.
   [[gnu::always_inline]] void prefetch(std::int64_t cell) const

@@ -2,7 +2,9 @@
 #include "Sampling/SampledImage.h"
 
 #include "Arrays/Scalar.h"
+#include "Overlap/AddOverlaps.h"
 #include "Parallel/Stopwatch.h"
+#include "Sampling/PlainValues.h"
 #include "Sampling/SamplingLattice.h"
 #include "Vtk/CellArrays.h"
 #include "Vtk/Compatibility.h"
@@ -132,7 +134,8 @@ SampledImage::Array& SampledImage::addArray(
   const std::string& name, bool ofCells, int type, int components)
 {
   Array array{ name, ofCells,
-    vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(type)) };
+    vtkSmartPointer<vtkDataArray>::Take(
+      vtkDataArray::CreateDataArray(this->Settings.Conservative ? VTK_DOUBLE : type)) };
   array.Samples->SetName(name.c_str());
   array.Samples->SetNumberOfComponents(components);
   if (!reserveTuples(array.Samples, vtkIdType(this->samples())))
@@ -184,7 +187,8 @@ bool SampledImage::accepts(const Array& array, bool ofCells, int type, int compo
       "'; only the one of the " + (array.OfCells ? "cells" : "points") + " is sampled.");
     return false;
   }
-  const bool same = scalarOf(array.Samples->GetDataType()) == scalarOf(type) &&
+  const bool same =
+    (this->Settings.Conservative || scalarOf(array.Samples->GetDataType()) == scalarOf(type)) &&
     array.Samples->GetNumberOfComponents() == components;
   if (!same)
   {
@@ -248,6 +252,13 @@ bool SampledImage::sample(vtkPointSet* mesh, SimplexSet& simplices, const Report
   {
     this->hideNoData(mesh, simplices);
   }
+  if (this->Settings.Conservative)
+  {
+    this->HasSamples = true;
+    const bool completed = this->average(mesh, simplices, progress);
+    this->Statistics.InterpolationSeconds += watch.seconds();
+    return completed;
+  }
   ResampleOptions options;
   options.Device = this->Settings.Device;
   options.Threads = this->Settings.Threads;
@@ -274,6 +285,104 @@ bool SampledImage::sample(vtkPointSet* mesh, SimplexSet& simplices, const Report
     this->warnOnce(result.Warning);
   }
   return !result.Aborted;
+}
+
+/// Throws std::runtime_error if the samples are not pixels of one layer.
+void SampledImage::requirePixels() const
+{
+  if (this->Dimension != 2)
+  {
+    throw std::runtime_error(
+      "the mesh has cells with a volume, and conservative means are over areas: give a surface.");
+  }
+  const int projected = 3 - this->Settings.Axes[0] - this->Settings.Axes[1];
+  if (this->Grid.size(projected) > 1)
+  {
+    throw std::runtime_error("conservative means have one layer: give one sample along " +
+      std::string(1, "xyz"[projected]) + ".");
+  }
+  for (const int axis : this->Settings.Axes)
+  {
+    const bool hasWidth = this->Grid.Slack[std::size_t(axis)] > 0; // Delta was given
+    if (this->Grid.size(axis) == 1 && !hasWidth)
+    {
+      throw std::runtime_error("there is one sample along " + std::string(1, "xyz"[axis]) +
+        ", which does not tell the width of its pixel: give Delta.");
+    }
+  }
+}
+
+/// Adds the areas and integrals of a mesh to the sums. Returns false if `progress` stopped it.
+bool SampledImage::average(vtkPointSet* mesh, SimplexSet& simplices, const Report& progress)
+{
+  this->requirePixels();
+  OverlapSource source;
+  source.Mesh = simplices.Mesh;
+  source.Parents = simplices.Parents.empty() ? nullptr : simplices.Parents.data();
+  std::vector<PlainValues> owned;
+  for (const Array& array : this->Arrays)
+  {
+    vtkDataArray* const found = this->valuesOf(mesh, array);
+    if (!found)
+    {
+      throw std::runtime_error("a part of the mesh has no array '" + array.Name +
+        "' with as many components, so it has no means: leave it out.");
+    }
+    owned.emplace_back(found);
+    source.Fields.push_back(
+      { owned.back().data(), array.Samples->GetNumberOfComponents(), array.OfCells });
+  }
+  this->Values.clear();
+  const int components = componentsOf(source.Fields);
+  if (!this->Sums)
+  {
+    this->Sums = std::make_unique<OverlapSums>(this->samples(), components);
+  }
+  if (components != this->Sums->components())
+  {
+    throw std::runtime_error("the parts of the mesh have different arrays: name those of all.");
+  }
+  return addPixels(this->Grid, source, *this->Sums, this->Settings.Threads, progress);
+}
+
+/// Sets the samples to the means, or to NullValue where nothing is covered.
+void SampledImage::finishMeans()
+{
+  const std::vector<double> shares = sharesOfPixels(this->Grid,
+    { this->Settings.Axes[0], this->Settings.Axes[1] }, *this->Sums, this->Settings.Threads);
+  int first = 0;
+  for (const Array& array : this->Arrays)
+  {
+    const int components = array.Samples->GetNumberOfComponents();
+    auto* const means = static_cast<double*>(array.Samples->GetVoidPointer(0));
+    forIndices(
+      this->samples(),
+      [&](std::int64_t i)
+      {
+        for (int k = 0; k < components; ++k)
+        {
+          means[i * components + k] = shares[std::size_t(i)] > 0 ? this->Sums->meanOf(i, first + k)
+                                                                 : this->Settings.NullValue;
+        }
+      },
+      this->Settings.Threads);
+    first += components;
+  }
+  std::transform(shares.begin(), shares.end(), this->valid(),
+    [](double share) { return (unsigned char)(share > 0); });
+  if (this->Settings.CoveredShare)
+  {
+    const Array& array = this->addArray(coveredShareName, true, VTK_DOUBLE, 1);
+    std::copy(shares.begin(), shares.end(), static_cast<double*>(array.Samples->GetVoidPointer(0)));
+  }
+  constexpr double rounding = 1e-9;
+  const auto twice =
+    std::count_if(shares.begin(), shares.end(), [](double share) { return share > 1 + rounding; });
+  if (twice > 0)
+  {
+    this->warnOnce("Cells overlap: " + std::to_string(twice) +
+      " pixels are covered more than once, and each of their cells counts.");
+  }
 }
 
 std::vector<Attribute> SampledImage::attributesOf(vtkPointSet* mesh)
@@ -370,6 +479,11 @@ void SampledImage::finish()
   {
     this->clear();
   }
+  if (this->Sums)
+  {
+    this->finishMeans();
+    return;
+  }
   // Triangles are sampled in one layer; copy it along the axis of the projection.
   const int projected = 3 - this->Settings.Axes[0] - this->Settings.Axes[1];
   const bool repeats = this->Dimension == 2 && this->samples() > 0;
@@ -400,14 +514,17 @@ void refuseTooLarge(const Lattice& local, const Lattice& wanted, bool exchanging
   constexpr double mask = 3;
   const double arrays = bytesOfArrays(meshes, settings) + mask;
   const double keys = settings.Merging ? sizeof(CellKey) : 0;
+  // Conservative means need two doubles for the area and for each component.
+  const double sums =
+    settings.Conservative ? 2 * sizeof(double) + 2 * bytesOfArrays(meshes, settings) : 0;
   const auto count = [](const Lattice& lattice)
   {
     return lattice.empty()
       ? 0.0
       : double(lattice.size(0)) * double(lattice.size(1)) * double(lattice.size(2));
   };
-  const double needed =
-    count(local) * (arrays + claims + keys) + (exchanging ? count(wanted) * (arrays + keys) : 0);
+  const double needed = count(local) * (arrays + claims + keys + sums) +
+    (exchanging ? count(wanted) * (arrays + keys) : 0);
   requireMemory(std::max(count(local), count(wanted)), needed);
 }
 

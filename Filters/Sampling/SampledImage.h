@@ -2,6 +2,7 @@
 #ifndef tippSampledImage_h
 #define tippSampledImage_h
 
+#include "Overlap/OverlapSums.h"
 #include "Resample/Resample.h"
 #include "Sampling/SimplexParts.h"
 
@@ -33,7 +34,14 @@ struct SamplingSettings
   DeviceChoice Device;
   int Threads = 1;
   bool Merging = false; ///< several meshes are added, on this or other ranks
+  /// Samples are means over the covered part of their pixels, as doubles, instead of values at
+  /// their positions.
+  bool Conservative = false;
+  bool CoveredShare = false; ///< with Conservative: adds the array coveredShareName
 };
+
+/// The name of the array with the share of each pixel, or of each cell, that a mesh covers.
+constexpr const char* coveredShareName = "CoveredShare";
 
 /// Counts and wall-clock times of sampling on this rank.
 struct SamplingStatistics
@@ -100,6 +108,9 @@ public:
 private:
   Array& addArray(const std::string& name, bool ofCells, int type, int components);
   bool sample(vtkPointSet* mesh, SimplexSet& simplices, const Report& progress);
+  bool average(vtkPointSet* mesh, SimplexSet& simplices, const Report& progress);
+  void requirePixels() const;
+  void finishMeans();
   void clear();
   std::vector<Attribute> attributesOf(vtkPointSet* mesh);
   vtkDataArray* valuesOf(vtkPointSet* mesh, const Array& array);
@@ -115,6 +126,7 @@ private:
   std::vector<vtkSmartPointer<vtkDataArray>> Values; ///< owns arrays while a mesh is sampled
   vtkNew<vtkCharArray> Mask;
   std::unique_ptr<CellKey[]> Keys;
+  std::unique_ptr<OverlapSums> Sums; ///< with Conservative: of all arrays, from the first mesh on
   SamplingStatistics Statistics;
   std::set<std::string> Names[2]; ///< names of point arrays and of cell arrays
   std::vector<std::string> Warnings;

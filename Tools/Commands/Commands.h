@@ -15,7 +15,7 @@ namespace tipp
 using AddCommand = void(CLI::App& app, int& exitCode);
 AddCommand addCheckCommand, addContourCommand, addDelaunayCommand, addDelaunay3DCommand,
   addDemCommand, addDevicesCommand, addFlattenCommand, addInfoCommand, addMeshCommand,
-  addPartitionCommand, addPointsCommand, addQueryCommand, addResampleCommand;
+  addPartitionCommand, addPointsCommand, addQueryCommand, addRemapCommand, addResampleCommand;
 
 } // namespace tipp
 

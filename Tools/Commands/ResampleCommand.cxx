@@ -75,6 +75,8 @@ struct ResampleArguments
   std::optional<double> Null;
   std::optional<double> NoData;
   std::string Crs;
+  std::string Method = "linear";
+  bool CoveredShare = false; ///< whether to add the share of each pixel that is covered
   std::string Memory = "1G"; ///< of the part of a partitioned mesh that is in memory at a time
 };
 
@@ -430,6 +432,11 @@ IMAGE   .vti: all arrays, vtkValidPointMask (1 where a cell contains the sample)
         pixels' centres, and --null is its number for no value (default: -9999). Values
         have 32 bits, or 64 if they are too large for that.
 
+With --method conservative, samples are the exact means over the part of each pixel that
+cells cover, as float64. A pixel has the sample as its centre and reaches half way to the
+next ones. Sums of mean times covered area are the mesh's integral. It needs a surface,
+and runs on one rank and on threads.
+
 Under mpirun the ranks share the cells, and the first one writes the image. Every rank
 reads the whole of a VTK file, but only its own part of a partitioned or flat mesh.
 
@@ -460,6 +467,9 @@ void configure(const ResampleArguments& arguments, vtkRangeResampleFilter* filte
   parseDeviceChoice(arguments.Device); // throw here; the filter would only report an error
   filter->SetDeviceChoice(arguments.Device.c_str());
   filter->SetNumberOfThreads(arguments.Threads);
+  filter->SetMethod(arguments.Method == "conservative" ? vtkRangeResampleFilter::METHOD_CONSERVATIVE
+                                                       : vtkRangeResampleFilter::METHOD_LINEAR);
+  filter->SetPassCoveredShare(arguments.CoveredShare);
   const bool npy = arguments.OutputIs == Opener::Npy;
   filter->SetNullValue(
     arguments.Null.value_or(npy ? std::numeric_limits<double>::quiet_NaN() : 0.0));
@@ -750,6 +760,10 @@ void addOptions(CLI::App& command, ResampleArguments& arguments)
   command.add_option("--null", arguments.Null, "The value of samples outside of the mesh");
   command.add_option("--no-data", arguments.NoData,
     "Cells with a corner of this value give no samples, such as -99999 for dry nodes");
+  addChecked(command, "--method", arguments.Method, CLI::IsMember({ "linear", "conservative" }),
+    "linear: values at the samples; conservative: exact means over the covered part of each pixel");
+  command.add_flag("--covered-share", arguments.CoveredShare,
+    "Adds the array CoveredShare: the share of each pixel that is covered");
   command.add_option("--crs", arguments.Crs, "The reference system of a .tif, such as EPSG:25832");
   addChecked(command, "--memory", arguments.Memory, checkMemorySize,
     "The memory limit for the part of a partitioned mesh that is in memory");
@@ -761,6 +775,8 @@ int run(ResampleArguments& arguments)
   refuseIf(
     arguments.Dimensions.empty() && arguments.Delta.empty(), "--dims", "or --delta is required");
   refuseIf(arguments.Bounds.size() == 5, "--bounds", "needs four numbers, or six");
+  refuseIf(arguments.CoveredShare && arguments.Method != "conservative", "--covered-share",
+    "needs --method conservative");
   arguments.BoundsHaveZ = arguments.Bounds.size() != 4;
   arguments.Bounds.resize(arguments.Bounds.empty() ? 0 : 6);
   if (arguments.OutputIs == Opener::Npy && arguments.Arrays.empty())

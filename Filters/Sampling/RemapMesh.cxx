@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Sampling/RemapMesh.h"
+
+#include "Overlap/AddOverlaps.h"
+#include "Sampling/PlainValues.h"
+#include "Sampling/SampledImage.h"
+#include "Vtk/CellArrays.h"
+#include "Vtk/Compatibility.h"
+
+#include "vtkCellData.h"
+#include "vtkDataArray.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkDoubleArray.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+
+namespace tipp
+{
+namespace
+{
+
+/// Returns the triangles of a surface. Throws std::runtime_error, with the surface's `name`, if it
+/// has cells with a volume.
+SimplexParts trianglesOf(vtkPointSet* mesh, const std::string& name, int threads)
+{
+  SimplexParts parts = makeSimplices(mesh, { 0, 1 }, threads);
+  if (parts.Tetrahedra.Mesh.Cells > 0)
+  {
+    throw std::runtime_error(
+      name + " has cells with a volume, and means are over areas: give a surface.");
+  }
+  return parts;
+}
+
+} // namespace
+
+MeshRemapper::MeshRemapper(vtkPointSet* target, int threads)
+  : Target(target)
+  , Threads(threads)
+  , Parts(trianglesOf(target, "The target mesh", threads))
+{
+  if (this->Parts.Triangles.Mesh.Cells == 0)
+  {
+    throw std::runtime_error("The target mesh has no cells with an area: give a surface.");
+  }
+}
+
+MeshRemapper::~MeshRemapper() = default;
+
+void MeshRemapper::findArrays(
+  vtkPointSet* source, const std::function<bool(const std::string&)>& wants)
+{
+  for (const bool ofCells : { true, false })
+  {
+    vtkDataSetAttributes* const data =
+      source->GetAttributes(ofCells ? vtkDataObject::CELL : vtkDataObject::POINT);
+    for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+    {
+      vtkDataArray* const array = data->GetArray(i);
+      const std::string name = array && array->GetName() ? array->GetName() : "";
+      const bool isKnown = std::any_of(this->Arrays.begin(), this->Arrays.end(),
+        [&name](const Array& known) { return known.Name == name; });
+      if (!name.empty() && name != vtkDataSetAttributes::GhostArrayName() &&
+        array != data->GetGlobalIds() && scalarOf(array->GetDataType()) && !isKnown && wants(name))
+      {
+        this->Arrays.push_back({ name, array->GetNumberOfComponents(), ofCells });
+      }
+    }
+  }
+}
+
+bool MeshRemapper::add(
+  vtkPointSet* source, const std::function<bool(const std::string&)>& wants, const Report& report)
+{
+  const SimplexParts parts = trianglesOf(source, "The source mesh", this->Threads);
+  if (parts.Triangles.Mesh.Cells == 0)
+  {
+    return true;
+  }
+  if (!this->Sums)
+  {
+    this->findArrays(source, wants);
+  }
+  OverlapSource from;
+  from.Mesh = parts.Triangles.Mesh;
+  from.Parents = parts.Triangles.Parents.empty() ? nullptr : parts.Triangles.Parents.data();
+  std::vector<PlainValues> values;
+  for (const Array& array : this->Arrays)
+  {
+    vtkDataArray* const found =
+      source->GetAttributes(array.OfCells ? vtkDataObject::CELL : vtkDataObject::POINT)
+        ->GetArray(array.Name.c_str());
+    if (!found || found->GetNumberOfComponents() != array.Components)
+    {
+      throw std::runtime_error("A part of the source mesh has no array '" + array.Name +
+        "' with as many components as the others: leave it out.");
+    }
+    values.emplace_back(contiguous(found));
+    from.Fields.push_back({ values.back().data(), array.Components, array.OfCells });
+  }
+  const SimplexMesh& targets = this->Parts.Triangles.Mesh;
+  if (!this->Sums)
+  {
+    this->Sums = std::make_unique<OverlapSums>(targets.Cells, componentsOf(from.Fields));
+  }
+  return addOverlaps(targets, from, *this->Sums, this->Threads, report);
+}
+
+/// Adds the sums of each cell's triangles, and returns the covered share of each cell.
+std::vector<double> MeshRemapper::sharesOfCells()
+{
+  const SimplexMesh& triangles = this->Parts.Triangles.Mesh;
+  const std::vector<std::int64_t>& parents = this->Parts.Triangles.Parents;
+  if (!this->Sums)
+  {
+    this->Sums = std::make_unique<OverlapSums>(triangles.Cells, 0);
+  }
+  if (parents.empty())
+  {
+    return sharesOfTriangles(triangles, *this->Sums, this->Threads);
+  }
+  const std::vector<double> areas = areasOfTriangles(triangles, this->Threads);
+  auto sums =
+    std::make_unique<OverlapSums>(this->Target->GetNumberOfCells(), this->Sums->components());
+  std::vector<double> shares(std::size_t(this->Target->GetNumberOfCells()), 0);
+  for (std::size_t i = 0; i < parents.size(); ++i)
+  {
+    for (int k = 0; k <= this->Sums->components(); ++k)
+    {
+      sums->of(parents[i])[k].add(this->Sums->of(std::int64_t(i))[k]);
+    }
+    shares[std::size_t(parents[i])] += areas[i];
+  }
+  this->Sums = std::move(sums);
+  for (std::size_t i = 0; i < shares.size(); ++i)
+  {
+    shares[i] = shares[i] > 0 ? this->Sums->areaOf(std::int64_t(i)) / shares[i] : 0;
+  }
+  return shares;
+}
+
+vtkSmartPointer<vtkPointSet> MeshRemapper::finish(double null)
+{
+  const std::vector<double> shares = this->sharesOfCells();
+  const auto result = vtkSmartPointer<vtkPointSet>::Take(this->Target->NewInstance());
+  result->CopyStructure(this->Target);
+  const vtkIdType cells = this->Target->GetNumberOfCells();
+  int first = 0;
+  for (const Array& array : this->Arrays)
+  {
+    const vtkNew<vtkDoubleArray> means;
+    means->SetName(array.Name.c_str());
+    means->SetNumberOfComponents(array.Components);
+    means->SetNumberOfTuples(cells);
+    for (vtkIdType i = 0; i < cells; ++i)
+    {
+      for (int k = 0; k < array.Components; ++k)
+      {
+        means->SetTypedComponent(
+          i, k, shares[std::size_t(i)] > 0 ? this->Sums->meanOf(i, first + k) : null);
+      }
+    }
+    first += array.Components;
+    result->GetCellData()->AddArray(means);
+  }
+  const vtkNew<vtkDoubleArray> covered;
+  covered->SetName(coveredShareName);
+  covered->SetNumberOfTuples(cells);
+  std::copy(shares.begin(), shares.end(), covered->GetPointer(0));
+  result->GetCellData()->AddArray(covered);
+  constexpr double rounding = 1e-9;
+  this->CoveredTwice =
+    std::count_if(shares.begin(), shares.end(), [](double share) { return share > 1 + rounding; });
+  this->Covered =
+    std::count_if(shares.begin(), shares.end(), [](double share) { return share > 0; });
+  return result;
+}
+
+} // namespace tipp

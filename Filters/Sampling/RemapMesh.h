@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippRemapMesh_h
+#define tippRemapMesh_h
+
+#include "Overlap/OverlapSums.h"
+#include "Parallel/ParallelFor.h"
+#include "Sampling/SimplexParts.h"
+#include "vtkTIPPFiltersModule.h"
+
+#include "vtkSmartPointer.h"
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+class vtkDataSetAttributes;
+class vtkPointSet;
+
+namespace tipp
+{
+
+/// Computes exact means of the arrays of surfaces over the part of each cell of another surface
+/// that they cover, in the plane of x and y: of cell data, and of point data, which are linear in
+/// each triangle. The sum of mean, area and covered share over all cells is the integral over the
+/// surfaces where they are covered, up to rounding. The result does not depend on the number of
+/// threads.
+class VTKTIPPFILTERS_EXPORT MeshRemapper
+{
+public:
+  /// `target` must have passed checkDataSet(), and is shared. Throws std::runtime_error if it has
+  /// cells with a volume or no cells with an area. `threads` is at least 1.
+  MeshRemapper(vtkPointSet* target, int threads);
+  ~MeshRemapper();
+  MeshRemapper(const MeshRemapper&) = delete;
+  MeshRemapper& operator=(const MeshRemapper&) = delete;
+
+  /// Adds a surface, or a part of one, that has passed checkDataSet(). wants(name) tells which
+  /// arrays of numbers are wanted; of equal names, the cells' array is taken. All parts must have
+  /// the wanted arrays of the first. Returns false if `report` stopped the work. Throws
+  /// std::runtime_error for cells with a volume, or arrays that differ between parts.
+  bool add(vtkPointSet* source, const std::function<bool(const std::string&)>& wants,
+    const Report& report);
+
+  /// Returns the cells of the target with the means as cell arrays of doubles, `null` in cells
+  /// that are not covered, and the array coveredShareName. The target's own arrays are left out.
+  vtkSmartPointer<vtkPointSet> finish(double null);
+
+  /// The number of cells of the result with a covered share above 1, because cells of the source
+  /// overlap, each of which counts. After finish().
+  std::int64_t coveredTwice() const { return this->CoveredTwice; }
+  /// The number of cells of the result that are covered in part at least. After finish().
+  std::int64_t covered() const { return this->Covered; }
+
+private:
+  struct Array
+  {
+    std::string Name;
+    int Components;
+    bool OfCells;
+  };
+
+  void findArrays(vtkPointSet* source, const std::function<bool(const std::string&)>& wants);
+  std::vector<double> sharesOfCells();
+
+  vtkSmartPointer<vtkPointSet> Target;
+  int Threads;
+  SimplexParts Parts; ///< of the target
+  std::vector<Array> Arrays;
+  std::unique_ptr<OverlapSums> Sums; ///< of the target's triangles; then of its cells
+  std::int64_t CoveredTwice = 0;
+  std::int64_t Covered = 0;
+};
+
+} // namespace tipp
+
+#endif

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Commands/Commands.h"
+#include "Commands/PointArguments.h"
+#include "Commands/Report.h"
+#include "Console/Process.h"
+#include "Files/IOError.h"
+#include "Files/PendingOutput.h"
+#include "Parallel/ParallelFor.h"
+#include "Parallel/Stopwatch.h"
+#include "Partitioned/PartitionedMesh.h"
+#include "Sampling/RemapMesh.h"
+#include "Vtk/DataSets.h"
+
+#include "vtkCellData.h"
+#include "vtkDataSet.h"
+#include "vtkExecutive.h"
+#include "vtkMultiProcessController.h"
+#include "vtkNew.h"
+#include "vtkPartitionedUnstructuredReader.h"
+#include "vtkPointSet.h"
+#include "vtkPolyData.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace tipp
+{
+namespace
+{
+
+/// The options of 'tipp remap'.
+struct RemapArguments
+{
+  std::string Source;
+  std::string Target;
+  std::string Output;
+  std::vector<std::string> Arrays; ///< empty: all
+  double Null = std::nan("");
+  int Threads = 0;
+  std::string Memory = "1G"; ///< of the part of a partitioned source that is in memory at a time
+};
+
+/// Approximate bytes of memory per cell of the source, with its points and its place in the search
+/// tree.
+constexpr std::uint64_t bytesOfCell = 160;
+
+/// Reads a mesh of any cells with points. Throws IOError.
+vtkSmartPointer<vtkPointSet> readPointSet(const std::string& path)
+{
+  const vtkSmartPointer<vtkDataSet> mesh = readDataSet(path);
+  vtkPointSet* const points = vtkPointSet::SafeDownCast(mesh);
+  if (!points)
+  {
+    throw IOError(path,
+      std::string("holds a ") + mesh->GetClassName() +
+        ", which stores no points; convert it with 'tipp flatten'.");
+  }
+  return points;
+}
+
+/// Adds the pieces of a partitioned mesh, a few at a time. Returns false after an interrupt.
+bool addPieces(const RemapArguments& arguments, MeshRemapper& remapper,
+  const std::function<bool(const std::string&)>& wants, const Report& report)
+{
+  std::int64_t cells = 0;
+  for (const PieceSummary& piece : openPartitionedMesh(arguments.Source).Pieces)
+  {
+    cells += piece.Cells;
+  }
+  const std::uint64_t memory = *parseMemorySize(arguments.Memory);
+  const int parts =
+    int(std::min<std::uint64_t>(bytesOfCell * std::uint64_t(cells) / memory + 1, 1 << 20));
+  const vtkNew<ErrorKeeper> errors;
+  const vtkNew<vtkPartitionedUnstructuredReader> reader;
+  reader->AddObserver(vtkCommand::ErrorEvent, errors);
+  reader->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, errors);
+  reader->SetController(nullptr);
+  reader->SetFileName(arguments.Source.c_str());
+  reader->SetNumberOfThreads(arguments.Threads);
+  for (int i = 0; i < parts; ++i)
+  {
+    reader->UpdatePiece(i, parts, 0);
+    if (errors->HasError)
+    {
+      throw IOError(errors->message());
+    }
+    auto* const part = vtkPointSet::SafeDownCast(reader->GetOutputDataObject(0));
+    if (part && !remapper.add(part, wants, partOf(report, double(i) / parts, (i + 1.0) / parts)))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Throws IOError for a name that the source does not have.
+void requireArrays(const RemapArguments& arguments, vtkPointSet* result)
+{
+  const std::set<std::string> names = arrayNames(result->GetCellData());
+  for (const std::string& name : arguments.Arrays)
+  {
+    if (names.count(name) == 0)
+    {
+      throw IOError(arguments.Source, "has no array of numbers '" + name + "'; name another.");
+    }
+  }
+}
+
+/// Throws IOError if the output's extension does not fit the target's type.
+void requireExtension(const RemapArguments& arguments, vtkPointSet* target)
+{
+  const std::string wanted = vtkPolyData::SafeDownCast(target) ? ".vtp" : ".vtu";
+  const std::string& path = arguments.Output;
+  if (path.size() < wanted.size() || path.substr(path.size() - wanted.size()) != wanted)
+  {
+    throw IOError(
+      path, "would have the cells of " + arguments.Target + ": name it " + wanted + ".");
+  }
+}
+
+int run(RemapArguments& arguments)
+{
+  const Stopwatch watch;
+  const PathState before =
+    requireWritable(arguments.Output, "", { arguments.Source, arguments.Target });
+  const ThreadLimit limit(arguments.Threads);
+  const auto bar = std::make_unique<ProgressBar>("Remapping");
+  const Report report = progressOn(bar);
+  const auto wants = [&arguments](const std::string& name)
+  {
+    return arguments.Arrays.empty() ||
+      std::find(arguments.Arrays.begin(), arguments.Arrays.end(), name) != arguments.Arrays.end();
+  };
+  const vtkSmartPointer<vtkPointSet> target = readPointSet(arguments.Target);
+  requireExtension(arguments, target);
+  MeshRemapper remapper(target, threadCount(arguments.Threads));
+  const bool isDone = isPartitionedMesh(arguments.Source)
+    ? addPieces(arguments, remapper, wants, report)
+    : remapper.add(readPointSet(arguments.Source), wants, report);
+  if (!isDone)
+  {
+    return reportInterrupt();
+  }
+  const vtkSmartPointer<vtkPointSet> result = remapper.finish(arguments.Null);
+  requireArrays(arguments, result);
+  writeXmlFile(arguments.Output, before, result);
+  fmt::print("{} cells, {} of them covered, {:.3f} s\n", std::int64_t(result->GetNumberOfCells()),
+    remapper.covered(), watch.seconds());
+  if (remapper.coveredTwice() > 0)
+  {
+    fmt::print(stderr,
+      "tipp: warning: {}: cells overlap: {} cells of the result are covered more than once, and "
+      "each cell counts.\n",
+      arguments.Source, remapper.coveredTwice());
+  }
+  return Success;
+}
+
+constexpr const char* footer =
+  R"(SOURCE  any VTK file of triangles or other cells with an area; or a partitioned mesh, which
+        may be larger than memory: it is read in parts of about --memory
+TARGET  a VTK file of such cells, whose cells the result has
+OUTPUT  .vtp for a TARGET of polygons, .vtu for one of cells of any type: as cell data the
+        exact means of SOURCE's arrays over the part of each cell that SOURCE covers, and
+        CoveredShare, the share of the cell that is covered, from 0 to 1
+
+Cells are in the plane of x and y. Values at points are linear in each triangle. Sums of
+mean times covered area are SOURCE's integral over TARGET. Where cells of SOURCE overlap,
+each counts, and a warning says so.
+
+Examples:
+  tipp remap fine.vtu --to coarse.vtu -o means.vtu
+  tipp remap fine.tipp --to zones.vtp -o rain.vtp --arrays rain --memory 512M
+)";
+
+void addOptions(CLI::App& command, RemapArguments& arguments)
+{
+  command.add_option("source", arguments.Source, "The mesh with the values")->required();
+  command.add_option("--to", arguments.Target, "The mesh whose cells the values are averaged over")
+    ->required();
+  command.add_option("-o,--output", arguments.Output, "The result, .vtp or .vtu")->required();
+  command.add_option("--arrays", arguments.Arrays, "Names of arrays (default: all)");
+  command.add_option(
+    "--null", arguments.Null, "The mean in cells that are not covered (default: NaN)");
+  addThreadsOption(command, arguments.Threads);
+  addChecked(command, "--memory", arguments.Memory, checkMemorySize,
+    "The memory limit for the part of a partitioned source that is in memory");
+}
+
+} // namespace
+
+void addRemapCommand(CLI::App& app, int& exitCode)
+{
+  addCommand<RemapArguments>(app, exitCode, "remap",
+    "Averages the values of a mesh over the cells of another one, exactly", footer, addOptions,
+    run);
+}
+
+} // namespace tipp
