@@ -86,7 +86,7 @@ std::vector<double> sharesOfTriangles(
   std::vector<double> shares = areasOfTriangles(targets, threads);
   for (std::size_t i = 0; i < shares.size(); ++i)
   {
-    shares[i] = shares[i] > 0 ? sums.areaOf(std::int64_t(i)) / shares[i] : 0;
+    shares[i] = coveredShare(sums.areaOf(std::int64_t(i)), shares[i]);
   }
   return shares;
 }

@@ -384,7 +384,7 @@ std::vector<double> sharesOfPixels(
         const double width = columns.width(column);
         const double height = rows.width(int(row));
         const std::int64_t pixel = row * columns.size() + column;
-        const double share = sums.areaOf(pixel) / (width * height);
+        const double share = coveredShare(sums.areaOf(pixel), width * height);
         const double rounding =
           roundingOf(columns.largest()) / width + roundingOf(rows.largest()) / height;
         shares[std::size_t(pixel)] = share > rounding ? share : 0;

@@ -70,6 +70,14 @@ private:
   std::vector<RunningSum> Sums;
 };
 
+/// Returns a covered share, with the roundings of a whole one removed.
+inline double coveredShare(double covered, double whole)
+{
+  constexpr double rounding = 1e-9;
+  const double share = whole > 0 ? covered / whole : 0;
+  return share > 1 && share < 1 + rounding ? 1 : share;
+}
+
 /// Returns the number of components of all fields.
 inline int componentsOf(const std::vector<OverlapField>& fields)
 {

@@ -139,7 +139,7 @@ std::vector<double> MeshRemapper::sharesOfCells()
   this->Sums = std::move(sums);
   for (std::size_t i = 0; i < shares.size(); ++i)
   {
-    shares[i] = shares[i] > 0 ? this->Sums->areaOf(std::int64_t(i)) / shares[i] : 0;
+    shares[i] = coveredShare(this->Sums->areaOf(std::int64_t(i)), shares[i]);
   }
   return shares;
 }
