@@ -88,6 +88,14 @@ class Bounds(unittest.TestCase):
         self.assertGreaterEqual(angles(found).min(), 33 - 1e-9)
         self.assertLessEqual(areas(found).max(), 0.1)
 
+    def test_numbers_may_have_exponents(self):
+        plain = tipp.triangulate(GRAPH, "pq32.5a0.05e")
+        for switches in ("pq3.25e1a5e-2e", "pq32.5a.05e", "pq32.5a5E-02e", "pq32.5a5e-02e"):
+            with self.subTest(switches):
+                found = tipp.triangulate(GRAPH, switches)
+                np.testing.assert_array_equal(plain["triangles"], found["triangles"])
+                self.assertIn("edges", found)
+
     def test_areas_of_regions(self):
         given = {**GRAPH, "regions": [[0.1, 0.1, 1, 0.3], [2, 2, 2, -1]]}
         found = tipp.triangulate(given, "pqAa")
@@ -155,6 +163,14 @@ class Domains(unittest.TestCase):
         self.assertLessEqual(areas(found)[inside].max(), 0.01)
         self.assertGreater(areas(found)[~inside].max(), 0.01)
         self.assertNotIn("segments", found)
+
+    def test_a_mesh_around_a_hole_with_an_island_is_refined_again(self):
+        wide = tipp.triangulate(GRAPH | {"holes": [[2, 2]]}, "p")
+        island = np.array([[1.6, 1.6], [2.4, 1.7], [2, 2.3]])
+        given = {"vertices": np.vstack([wide["vertices"], island]) + 1e6,
+                 "triangles": np.vstack([wide["triangles"], len(wide["vertices"]) + np.arange(3)])}
+        found = tipp.triangulate(given, "rq30a0.05")
+        self.assertAlmostEqual(12 + 0.26, areas(found).sum(), places=6)
 
     def test_segments_of_a_mesh_are_kept(self):
         coarse = tipp.triangulate(GRAPH, "p")
@@ -227,6 +243,20 @@ class Misuse(unittest.TestCase):
         self.assert_refused(ValueError, "the area of a is 0.0; give a number above 0", GRAPH, "pa0")
         self.assert_refused(ValueError, "opts has the switch 'q.' without a number", GRAPH, "pq.")
         self.assert_refused(ValueError, "opts has the switch r, but tri has no key 'triangles'", GRAPH, "rq")
+
+    def test_edges_of_three_triangles(self):
+        given = {"vertices": [[0, 0], [1, 0], [0, 1], [1, 1]], "triangles": [[0, 1, 2], [0, 1, 3]]}
+        self.assert_refused(ValueError, "the triangles 0 and 1 lie on the same side of the edge between vertices 0 and 1",
+                            given, "rq")
+        given["triangles"] = [[0, 1, 2], [3, 1, 1]]
+        self.assert_refused(ValueError, "triangle 1 has the vertex 1 twice", given, "rq")
+
+    def test_triangles_that_overlap(self):
+        apart = [[0, 0], [4, 0], [0, 4]]
+        for name, others in (("crossing", [[1, 1], [5, 1], [1, 5]]), ("inside", [[1, 1], [2, 1], [1, 2]])):
+            with self.subTest(name):
+                given = {"vertices": apart + others, "triangles": [[0, 1, 2], [3, 4, 5]]}
+                self.assert_refused(ValueError, "give a mesh whose triangles do not overlap", given, "rq")
 
     def test_switches_without_effect(self):
         plain = tipp.triangulate(GRAPH, "pq")

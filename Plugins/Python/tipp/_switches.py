@@ -16,7 +16,7 @@ from ._mesh import angle_of, positive
 
 _KEYS = ("vertices", "vertex_attributes", "vertex_markers", "segments", "segment_markers", "holes", "regions", "triangles",
          "triangle_max_area")
-_NUMBER = r"([0-9]*\.?[0-9]*)"
+_NUMBER = r"((?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?|\.?)"  # 'a1e' has the switch e, as it has no exponent
 _SWITCH = re.compile(rf"q{_NUMBER}|a{_NUMBER}|S([0-9]*)|.", re.DOTALL)
 _WITHOUT_EFFECT = "QVziFl"  # output on the terminal, ids from 0, and the choice of an algorithm
 _ANGLE = 20.0  # of q without a number, as in Triangle
@@ -61,7 +61,7 @@ def triangulate(tri: Mapping[str, Any], opts: str = "", *, threads: int = 0) -> 
         (t, 1).
     opts
         Triangle's switches. p: segments, holes and regions are used. q, q30: no angle is below 20 or 30 degrees, at most
-        34. a0.1: no triangle is larger; a: the areas of regions or, with r, those of triangle_max_area are used. c: the
+        34. a0.1, a1e-5: no triangle is larger; a: the areas of regions or, with r, those of triangle_max_area are used. c: the
         domain is the convex hull. r: the domain is that of the given triangles, and with p also their segments are kept.
         A: triangles get the attribute of their region, or 0. e, n: the result has edges or neighbors. j: vertices of no
         triangle are left out. Y, YY: no points are added on the border, or on any segment. S100: refinement adds at most
@@ -80,7 +80,7 @@ def triangulate(tri: Mapping[str, Any], opts: str = "", *, threads: int = 0) -> 
     Raises
     ------
     TypeError, ValueError
-        If the dictionary or the switches are wrong, or not supported.
+        If the dictionary or the switches are wrong, or not supported; also if the triangles for r overlap.
     RuntimeError
         If it failed, for example for a region's point outside of the domain.
 
@@ -101,6 +101,8 @@ def triangulate(tri: Mapping[str, Any], opts: str = "", *, threads: int = 0) -> 
     if is_remade and len(given.triangles) == 0:
         raise ValueError("opts has the switch r, but tri has no key 'triangles'; give the mesh to refine.")
     lines = list(given.segments) if is_segmented else []
+    if is_remade:
+        _require_manifold(given.triangles)
     rings = _rings(given.triangles) if is_remade else []
     uses_areas = "a" in switches.letters and math.isinf(switches.max_area)
     areas = given.areas if is_remade and uses_areas else np.zeros(0)
@@ -112,6 +114,8 @@ def triangulate(tri: Mapping[str, Any], opts: str = "", *, threads: int = 0) -> 
          "holes": [tuple(hole) for hole in given.holes.tolist()] if is_segmented and not is_remade else [],
          "convex": not is_remade and ("c" in switches.letters or not is_segmented), "threads": check.threads(threads)},
         _area_surface(given.vertices, given.triangles, areas), None)
+    if is_remade:
+        _require_apart(given, found)
     return _result(found, given, switches, lines)
 
 
@@ -120,7 +124,7 @@ def _switches_of(opts: str) -> _Switches:
     for match in _SWITCH.finditer(opts):
         letter = match[0][0]
         if letter not in "pqacrAenjYS" + _WITHOUT_EFFECT:
-            advice = {"D": "meshes are constrained Delaunay", "C": "tipp.check() proves a triangulation",
+            advice = {"D": "meshes are constrained Delaunay; a smaller area splits segments, too", "C": "tipp.check() proves a triangulation",
                       "X": "the arithmetic is always exact"}.get(letter, "leave it out")
             raise ValueError(f"opts has the switch '{letter}', which is not supported: {advice}.")
         letters.add(letter)
@@ -219,6 +223,39 @@ def _options(switches: _Switches, regions: np.ndarray, uses_areas: bool) -> dict
         "keep_border": "Y" in switches.letters, "keep_segments": switches.keeps_segments, "shortest_edge": 0.0,
         "most_points": switches.most_points or 0, "crossings": 1, "marks": 1, "lengths": None,
     }
+
+
+def _require_manifold(triangles: np.ndarray) -> None:
+    """Requires that at most two triangles have an edge, one on each of its sides."""
+    sides = np.stack([triangles, np.roll(triangles, -1, axis=1)], axis=2).reshape(-1, 2)
+    same = np.flatnonzero(sides[:, 0] == sides[:, 1])
+    if len(same):
+        raise ValueError(f"tri['triangles']: triangle {same[0] // 3} has the vertex {sides[same[0], 0]} twice; remove the "
+                         "triangle.")
+    _, first, inverse = np.unique(sides[:, 0] + 1j * sides[:, 1], return_index=True, return_inverse=True)
+    again = np.flatnonzero(first[inverse.reshape(-1)] != np.arange(len(sides)))
+    if len(again):
+        other = first[inverse.reshape(-1)[again[0]]]
+        raise ValueError(f"tri['triangles']: the triangles {other // 3} and {again[0] // 3} lie on the same side of the edge "
+                         f"between vertices {sides[other, 0]} and {sides[other, 1]}; give a mesh whose triangles do not "
+                         "overlap.")
+
+
+def _require_apart(given: _Input, found: Mesh) -> None:
+    """Requires that the triangles given do not overlap: then they cover as much as the mesh does."""
+    def covered(points: np.ndarray, triangles: np.ndarray) -> tuple[float, float]:
+        """Returns the area, and a bound of its terms."""
+        a, b, c = (points[corner].astype(np.float64) for corner in triangles.T)
+        (px, py), (qx, qy) = (b - a).T[:2], (c - a).T[:2]
+        return math.fsum((px * qy - py * qx) / 2), math.fsum(np.abs(px * qy) + np.abs(py * qx))
+
+    (asked, terms), (made, _) = covered(given.vertices, given.triangles), covered(found.points, found.cells)
+    sides = given.vertices[given.triangles] - given.vertices[np.roll(given.triangles, -1, axis=1)]
+    # Products are rounded, and so are points added on the border.
+    error = 2.0**-48 * (terms + np.abs(given.vertices[given.triangles]).max() * np.abs(sides).sum())
+    if abs(asked - made) > error:
+        raise ValueError(f"tri['triangles'] have an area of {asked:.6g} in all, but cover {made:.6g}; give a mesh whose "
+                         "triangles do not overlap.")
 
 
 def _rings(triangles: np.ndarray) -> list[np.ndarray]:
