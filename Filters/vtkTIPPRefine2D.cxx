@@ -28,6 +28,7 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
+#include <sstream>
 #include <stdexcept>
 #include <utility>
 
@@ -39,6 +40,19 @@ namespace
 double limitOf(double largest)
 {
   return largest > 0 ? largest : std::numeric_limits<double>::infinity();
+}
+
+/// Throws std::invalid_argument unless a property is finite and in its range.
+void requireRange(const char* name, double value, double most)
+{
+  tipp::requireFinite({ { name, value } });
+  if (!(value >= 0 && value <= most))
+  {
+    std::ostringstream text;
+    text << name << " is " << value << "; give ";
+    most < VTK_DOUBLE_MAX ? text << "a number from 0 to " << most << "." : text << "0 or more.";
+    throw std::invalid_argument(text.str());
+  }
 }
 
 tipp::Scalar scalarOf(vtkDataArray* array)
@@ -267,12 +281,20 @@ int vtkTIPPRefine2D::RequestData(
 /// The request but for constraints and sizes.
 tipp::MeshRequest vtkTIPPRefine2D::Request() const
 {
-  tipp::requireFinite({ { "MinimumAngle", this->MinimumAngle },
-    { "MaximumArea", this->MaximumArea }, { "ShortestEdge", this->ShortestEdge } });
+  requireRange("MinimumAngle", this->MinimumAngle, tipp::RefinementOptions::LargestAngle);
+  requireRange("MaximumArea", this->MaximumArea, VTK_DOUBLE_MAX);
+  requireRange("ShortestEdge", this->ShortestEdge, VTK_DOUBLE_MAX);
+  requireRange("MostPoints", double(this->MostPoints), VTK_DOUBLE_MAX);
+  requireRange("SmoothingRounds", this->SmoothingRounds, VTK_DOUBLE_MAX);
+  for (const auto& region : this->Regions)
+  {
+    requireRange("The area of a region", region[2], VTK_DOUBLE_MAX);
+  }
   tipp::MeshRequest request;
   request.Crossings = this->SplitCrossings ? tipp::CrossingRule::Split : tipp::CrossingRule::Refuse;
   request.IsConvex = this->Convex != 0;
   request.HasValues = true;
+  request.SmoothingRounds = this->SmoothingRounds;
   tipp::RefinementOptions& options = request.Refinement;
   options.MinimumAngle = this->MinimumAngle;
   options.LargestArea = limitOf(this->MaximumArea);
@@ -381,5 +403,6 @@ void vtkTIPPRefine2D::PrintSelf(ostream& os, vtkIndent indent)
   vtkTIPPPrintMacro(SplitCrossings);
   vtkTIPPPrintMacro(GenerateSegments);
   vtkTIPPPrintMacro(MostPoints);
+  vtkTIPPPrintMacro(SmoothingRounds);
   vtkTIPPPrintMacro(NumberOfThreads);
 }

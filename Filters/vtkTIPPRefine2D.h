@@ -98,16 +98,19 @@ public:
   ///@{
   /**
    * The smallest angle of a triangle, in degrees, 0 to 34; 30 by default. Up to 20.7 refinement is
-   * proved to end, up to 33 it usually does. 0: no bound.
+   * proved to end, up to 33 it usually does. 0: no bound. Other values are an error of the update,
+   * as those of MaximumArea, ShortestEdge and MostPoints that are below 0.
    */
-  vtkTIPPClampedMacro(MinimumAngle, double, 0.0, 34.0);
+  vtkSetMacro(MinimumAngle, double);
+  vtkGetMacro(MinimumAngle, double);
   ///@}
 
   ///@{
   /**
    * The largest area of a triangle, in the square of the points' unit. 0 (the default): no limit.
    */
-  vtkTIPPClampedMacro(MaximumArea, double, 0.0, VTK_DOUBLE_MAX);
+  vtkSetMacro(MaximumArea, double);
+  vtkGetMacro(MaximumArea, double);
   ///@}
 
   ///@{
@@ -144,7 +147,8 @@ public:
    * stay as they are. 0 (the default): 2^-36 of the domain's longest side, or 2^-44 of the largest
    * coordinate if that is more.
    */
-  vtkTIPPClampedMacro(ShortestEdge, double, 0.0, VTK_DOUBLE_MAX);
+  vtkSetMacro(ShortestEdge, double);
+  vtkGetMacro(ShortestEdge, double);
   ///@}
 
   ///@{
@@ -192,7 +196,18 @@ public:
    * The largest number of points that refinement adds. It then works in one thread. 0 (the
    * default): no limit.
    */
-  vtkTIPPClampedMacro(MostPoints, vtkIdType, 0, VTK_ID_MAX);
+  vtkSetMacro(MostPoints, vtkIdType);
+  vtkGetMacro(MostPoints, vtkIdType);
+  ///@}
+
+  ///@{
+  /**
+   * The largest number of rounds in which points that refinement added inside the domain are moved
+   * towards the mean of their neighbours, where the smallest angles grow and all bounds hold. 0
+   * (the default): none.
+   */
+  vtkSetMacro(SmoothingRounds, int);
+  vtkGetMacro(SmoothingRounds, int);
   ///@}
 
   ///@{
@@ -232,6 +247,7 @@ private:
   vtkTypeBool SplitCrossings = 1;
   vtkTypeBool GenerateSegments = 0;
   vtkIdType MostPoints = 0;
+  int SmoothingRounds = 0;
   int NumberOfThreads = 0;
 };
 

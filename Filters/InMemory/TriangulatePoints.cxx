@@ -352,7 +352,7 @@ ConstrainedTriangulation triangulatePoints(
       throw std::invalid_argument(
         "it has polygons, and a point that is NaN or infinite; correct the point.");
     }
-    keepInside(all, whole.Mesh, segments,
+    whole.Inverted = keepInside(all, whole.Mesh, segments,
       { segmentsOf(segments, source.PolygonBegin, boundary), segmentsOf(segments, boundary, end),
         source.Holes });
   };

@@ -4,6 +4,7 @@
 #include "Constraints/Insertion/TriangulateConstrained.h"
 #include "Parallel/ParallelFor.h"
 #include "Refinement/MinimumPyramid.h"
+#include "Refinement/Smooth.h"
 
 #include <algorithm>
 #include <array>
@@ -228,6 +229,7 @@ bool hasBounds(const RefinementOptions& options)
 }
 
 constexpr double StartShare = 0.2; ///< of the progress, for the triangulation to start from
+constexpr double SmoothingShare = 0.3;
 
 ConstrainedTriangulation triangulateStart(
   PointsView points, const MeshRequest& request, std::vector<std::string>& warnings)
@@ -249,6 +251,11 @@ ConstrainedTriangulation triangulateStart(
   if (!result.Mesh.Ids64.empty())
   {
     throw std::length_error("The mesh would have too many points.");
+  }
+  if (result.Inverted > 0)
+  {
+    warnings.push_back("A part that only clockwise polygons surround is left out: reverse the "
+                       "polygon, or repair it if it crosses itself.");
   }
   return result;
 }
@@ -378,6 +385,11 @@ PointsMesh meshPoints(
   PointsView points, const MeshRequest& request, std::vector<std::string>& warnings)
 {
   PointsMesh result;
+  if (request.SmoothingRounds < 0)
+  {
+    throw std::invalid_argument("The number of smoothing rounds is " +
+      std::to_string(request.SmoothingRounds) + "; give 0 or more.");
+  }
   const ConstrainedTriangulation start = triangulateStart(points, request, warnings);
   result.Aborted = start.Mesh.Aborted;
   if (result.Aborted)
@@ -388,11 +400,17 @@ PointsMesh meshPoints(
   const AreaFields fields(all.view(), request, start);
   RefinementOptions options = request.Refinement;
   options.IsEnclosed = isEnclosed(request);
-  options.Progress = partOf(request.Refinement.Progress, StartShare, 1);
+  const double smoothing = request.SmoothingRounds > 0 ? SmoothingShare : 0;
+  options.Progress = partOf(request.Refinement.Progress, StartShare, 1 - smoothing);
   fields.apply(options);
   // refine() would still split segments that are too close to a point.
   options.KeepsSegments = options.KeepsSegments || !hasBounds(options);
   result.Mesh = refine(all.view(), start, options);
+  if (!result.Mesh.Aborted)
+  {
+    options.Progress = partOf(request.Refinement.Progress, 1 - smoothing, 1);
+    smooth(all.view(), options, request.SmoothingRounds, result.Mesh);
+  }
   result.Aborted = result.Mesh.Aborted;
   if (result.Aborted)
   {

@@ -43,6 +43,8 @@ struct MeshRequest
   const double* Lengths = nullptr;
   /// As Lengths, on a surface of its own; outside of the surface there is no limit. Null: none.
   const LengthSurface* Surface = nullptr;
+  /// The largest number of rounds of smooth(); 0: points that refinement added stay where they are.
+  int SmoothingRounds = 0;
   /// Whether PointsMesh::Blends is wanted.
   bool HasValues = false;
 };
@@ -65,10 +67,11 @@ inline unsigned char codeOf(TriangleOutside::Reason reason)
 }
 
 /// Meshes points in memory, for vtkTIPPRefine2D and for Python: computes their constrained Delaunay
-/// triangulation and refines it. Values at added points are interpolated along their segment or,
-/// inside the domain, in the triangulation before refinement. `warnings` receives a sentence for
-/// each problem. Throws like triangulatePoints() and refine(), and std::invalid_argument for a
-/// length that is not above 0 and finite.
+/// triangulation, refines it, and smooths the result if that is requested. Values at added points
+/// are interpolated along their segment or, inside the domain, in the triangulation before
+/// refinement. `warnings` receives a sentence for each problem. Throws like triangulatePoints() and
+/// refine(), and std::invalid_argument for a length that is not above 0 and finite or a negative
+/// number of rounds.
 VTKTIPPFILTERS_EXPORT PointsMesh meshPoints(
   PointsView points, const MeshRequest& request, std::vector<std::string>& warnings);
 

@@ -39,8 +39,7 @@ public:
 /// Which values are read from a file, and where it lies if it does not say so.
 struct PlaneValuesOptions
 {
-  /// The name of the points' column, or of the nodes' array. Empty: one of `Names`, in this order;
-  /// else the only column besides the elevation; else the elevation. A column depth must be named.
+  /// The name of the points' column, or of the nodes' array. Empty: one of `Names`, in this order.
   std::string Column;
   std::vector<std::string> Names = {};
   /// An .npy file is a raster with these outer pixel borders; nullopt: it has points.

@@ -40,25 +40,10 @@ std::size_t chooseColumn(
       return std::size_t(found - names.begin());
     }
   }
-  const std::string depth = "depth";
-  if (names == std::vector<std::string>{ depth } && options.Column.empty())
-  {
-    throw IOError(path, "has the column depth alone; name it if its values are meant.");
-  }
-  const std::size_t elevation = findElevation(names);
-  const bool hasElevation = elevation < names.size();
-  if (options.Column.empty() && names.size() == (hasElevation ? 2 : 1))
-  {
-    return elevation == 0 ? 1 : 0;
-  }
-  if (options.Column.empty() && names.size() == 1)
-  {
-    return 0;
-  }
+  // Any other column may hold anything, so that none is guessed.
   const std::set<std::string> known(names.begin(), names.end());
   throw IOError(path,
-    (options.Column.empty() ? std::string("has no single column of values")
-                            : "has no column '" + options.Column + "'") +
+    "has no column '" + (wanted.empty() ? std::string("z") : wanted.front()) + "'" +
       listOfNames(known, "; name one of ") + ".");
 }
 

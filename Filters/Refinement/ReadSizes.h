@@ -22,11 +22,10 @@ namespace tipp
 struct SizeArguments
 {
   std::string Size;   ///< a number, or the path of a file with sizes: see openPlaneValues()
-  std::string Column; ///< of the file Size; empty: see PlaneValuesOptions::Column
+  std::string Column; ///< of the file Size; empty: the column size
 
   std::string Depth; ///< the path of a file with depths in metres: see openPlaneValues()
-  /// Of the file Depth; empty: the column depth, or the elevation if DepthIsElevation; else as
-  /// PlaneValuesOptions::Column.
+  /// Of the file Depth; empty: the column depth, or the elevation if DepthIsElevation.
   std::string DepthColumn;
   bool DepthIsElevation = false; ///< whether the values of Depth are positive up, else down
 

@@ -22,6 +22,7 @@ struct RefinementStatistics
   std::int64_t Splits = 0;   ///< points added on segments
   std::int64_t Inserted = 0; ///< points added in all
   std::int64_t GivenUp = 0;  ///< triangles that could not be refined, of which some vanished later
+  std::int64_t Moves = 0;    ///< by smooth(): a point that moves in several rounds counts in each
 };
 
 /// A triangle that has an angle below the bound, or an area above its limit.

@@ -4,7 +4,11 @@
 
 #include "Parallel/ParallelFor.h"
 #include "Predicates/Geometry.h"
+#include "Predicates/Vectors.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -47,6 +51,21 @@ struct RefinementOptions
   int Threads = 0;             ///< 0: as usual
   Report Progress;
 };
+
+/// What RefinementOptions::AreaAt returns for a triangle.
+inline double areaAt(
+  const std::function<double(Point2, double)>& limit, const std::array<Point2, 3>& corners)
+{
+  const auto& [a, b, c] = corners;
+  const Point2 centroid{ (a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3 };
+  double square = 0;
+  for (const Point2 corner : corners)
+  {
+    const Point2 away = corner - centroid;
+    square = std::max(square, away.x * away.x + away.y * away.y);
+  }
+  return limit(centroid, std::sqrt(square));
+}
 
 } // namespace tipp
 

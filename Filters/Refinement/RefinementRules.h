@@ -5,6 +5,7 @@
 #include "Predicates/Geometry.h"
 #include "Predicates/Vectors.h"
 #include "Refinement/RefinementMesh.h"
+#include "Refinement/RefinementOptions.h"
 
 #include <algorithm>
 #include <array>
@@ -80,14 +81,7 @@ public:
     double limit = this->LargestArea;
     if (this->AreaAt)
     {
-      const Point2 centroid{ (p[0].x + p[1].x + p[2].x) / 3, (p[0].y + p[1].y + p[2].y) / 3 };
-      double square = 0;
-      for (const Point2 corner : p)
-      {
-        const Point2 away = corner - centroid;
-        square = std::max(square, away.x * away.x + away.y * away.y);
-      }
-      limit = std::min(limit, this->AreaAt(centroid, std::sqrt(square)));
+      limit = std::min(limit, areaAt(this->AreaAt, p));
     }
     if (!this->RegionAreas.empty())
     {

@@ -92,6 +92,7 @@ nb::dict meshArrays(const InputArray& points, const InputArray& pairs, std::size
   request.IsConvex = of<bool>(given, "convex");
   request.Lengths = lengths ? static_cast<const double*>(lengths->data()) : nullptr;
   request.HasValues = values;
+  request.SmoothingRounds = of<int>(given, "smooth");
   LengthSurface sizes;
   if (surface)
   {

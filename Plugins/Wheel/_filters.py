@@ -16,6 +16,7 @@ from ._arguments import array_of, DELAUNAY_2D, DELAUNAY_3D, DELAUNAY_FILE, DEM, 
 from ._arrays import grid_position
 from ._data import Image
 from ._dem import lines_of
+from ._mesh import angle_of
 from ._filter import add_total, Filter
 from ._results import in_vtk
 from ._vtk import cell_lists, grid_of, image_of, point_arrays, point_cloud, simplices_of, vtk_array, xyz_of
@@ -176,10 +177,9 @@ class vtkTIPPRefine2D(_WithHoles):
     PROPERTIES = {
         "MinimumAngle": 30.0, "MaximumArea": 0.0, "SizeArrayName": "", "ShortestEdge": 0.0, "KeepBorder": False,
         "KeepSegments": False, "Convex": False, "SplitCrossings": True, "GenerateSegments": False, "MostPoints": 0,
-        "NumberOfThreads": 0,
+        "SmoothingRounds": 0, "NumberOfThreads": 0,
     }
-    LIMITS = {"MinimumAngle": (0, 34), "MaximumArea": (0, None), "ShortestEdge": (0, None), "MostPoints": (0, None),
-              "NumberOfThreads": (0, 4096)}
+    LIMITS = {"NumberOfThreads": (0, 4096)}
     INPUTS = ("vtkPolyData", "vtkPointSet")
     OPTIONAL_INPUTS = (1,)
     INPUT_NAMES = {"Size": 1}
@@ -206,8 +206,11 @@ class vtkTIPPRefine2D(_WithHoles):
         return np.ascontiguousarray(array, np.float64)
 
     def execute(self, inputs: Any, outputs: Any) -> None:
-        for name in ("MinimumAngle", "MaximumArea", "ShortestEdge"):
-            check.number(self.value(name), name)
+        angle_of(self.value("MinimumAngle"), "MinimumAngle")
+        for name in ("MaximumArea", "ShortestEdge", "MostPoints", "SmoothingRounds"):
+            check.number(self.value(name), name, at_least=0)
+        for region in self.regions:
+            check.number(region[2], "the area of a region", at_least=0)
         source, sizes = vtkPolyData.GetData(inputs[0]), vtkPointSet.GetData(inputs[1])
         options = {
             **options_of(self, MESHING), "max_area": self.value("MaximumArea") or math.inf, "holes": self.holes,

@@ -4,6 +4,7 @@
 #include "Commands/PointArguments.h"
 #include "Commands/Report.h"
 #include "Console/Process.h"
+#include "Constraints/ReadRegions.h"
 #include "Constraints/TableConstraints.h"
 #include "Files/Formats.h"
 #include "Files/IOError.h"
@@ -15,7 +16,9 @@
 #include "Parallel/Poll.h"
 #include "Parallel/Stopwatch.h"
 #include "Points/ReadPoints.h"
+#include "Predicates/SensibleRange.h"
 #include "Raster/RasterValues.h"
+#include "Refinement/HolePoints.h"
 #include "Refinement/MeshPoints.h"
 #include "Refinement/ModelBoundaries.h"
 #include "Refinement/NodeDepths.h"
@@ -56,9 +59,11 @@ struct MeshArguments
   double LargestArea = 0; ///< 0: not given
   double ShortestEdge = 0;
   std::int64_t MostPoints = 0;
+  int SmoothingRounds = 0;
   bool KeepBorder = false;
   bool KeepSegments = false;
   std::vector<std::tuple<double, double, double>> Regions; ///< x, y and the largest area
+  std::string RegionFile;                                  ///< path; empty: not given
   SizeArguments Sizes;
 
   bool DepthsAtNodes = false;
@@ -74,6 +79,12 @@ struct MeshArguments
     return !this->Sizes.Size.empty() || this->Sizes.Dis || this->Sizes.WaveLength ||
       this->Sizes.Slope;
   }
+  bool depthsAreRaster() const
+  {
+    const std::string& path = this->Sizes.Depth;
+    return formatOf(path, Use::Rasters) ||
+      (this->Sizes.RasterBounds && isOpenedBy(path, Opener::Npy));
+  }
   bool hasBoundaryLists() const { return this->OutputIs == Opener::Adcirc; }
   bool isOpen() const { return this->OpenDepth || !this->OpenPolygon.empty(); }
   bool sizesNeedDepths() const { return this->Sizes.WaveLength || this->Sizes.Slope; }
@@ -86,8 +97,7 @@ struct MadeMesh
   std::vector<std::int64_t> Triangles;
   std::vector<std::int64_t> Regions;
   std::vector<std::array<std::int64_t, 2>> Segments;
-  std::vector<Point2> Holes; ///< the points given in holes
-  RefinedMesh Refined;       ///< its triangles and points have been moved from
+  RefinedMesh Refined; ///< its triangles and points have been moved from
   std::int64_t GivenPoints = 0;
   std::int64_t LeftOut = 0; ///< points that are not in the domain
   std::optional<NodeDepths> Depths;
@@ -127,6 +137,7 @@ Box2 domainOf(const MeshArguments& arguments, const PointTable& points,
   return box;
 }
 
+/// Throws IOError if the file of regions cannot be read.
 RefinementOptions refinementOptions(const MeshArguments& arguments)
 {
   RefinementOptions options;
@@ -142,6 +153,13 @@ RefinementOptions refinementOptions(const MeshArguments& arguments)
   for (const auto& [x, y, area] : arguments.Regions)
   {
     options.Regions.push_back({ { x, y }, area });
+  }
+  if (!arguments.RegionFile.empty())
+  {
+    for (const RegionLimit& region : readRegions(arguments.RegionFile))
+    {
+      options.Regions.push_back({ region.Seed, region.LargestArea });
+    }
   }
   options.Threads = arguments.Threads;
   return options;
@@ -255,14 +273,13 @@ void checkDepths(const MeshArguments& arguments, const MadeMesh& made)
   if (arguments.OutputIs != Opener::Vtk)
   {
     throw IOError(path,
-      fmt::format("has no depths in the parts of the mesh of {} nodes; give a file that covers "
-                  "them, or write .vtu, which stores NaN.",
-        missing));
+      fmt::format("has no depths in the parts of the mesh of {}; give a file that covers them, or "
+                  "write .vtu, which stores NaN.",
+        counted(missing, "node", "nodes")));
   }
   fmt::print(stderr,
-    "tipp: warning: {} nodes have the depth NaN, because {} has no depths in their parts of the "
-    "mesh.\n",
-    missing, path);
+    "tipp: warning: {} the depth NaN, because {} has no depths in their parts of the mesh.\n",
+    counted(missing, "node has", "nodes have"), path);
 }
 
 /// Throws IOError unless points with depths have the column.
@@ -282,12 +299,14 @@ void requireColumn(
 void addDepths(const MeshArguments& arguments, MadeMesh& made)
 {
   const std::string& path = arguments.Sizes.Depth;
+  const std::optional<Box2>& bounds = arguments.Sizes.RasterBounds;
   NodeDepthOptions options;
   options.Axis = arguments.Sizes.DepthIsElevation ? VerticalAxis::Elevations : VerticalAxis::Depths;
   options.Threads = arguments.Threads;
-  if (formatOf(path, Use::Rasters))
+  if (arguments.depthsAreRaster())
   {
-    const auto raster = openRasterValues(path);
+    const auto raster =
+      isOpenedBy(path, Opener::Npy) ? openNpyRaster(path, *bounds) : openRasterValues(path);
     made.Depths = depthsFromRaster(made.Points.XY, viewOf(made), *raster,
       arguments.DepthsAtNodes ? NodeRule::AtNode : NodeRule::CellMean, options);
   }
@@ -381,16 +400,16 @@ void findBoundaries(const MeshArguments& arguments, MadeMesh& made)
   if (made.Boundaries.TouchingNodes > 0)
   {
     fmt::print(stderr,
-      "tipp: warning: the border of the mesh touches itself at {} nodes, with which ADCIRC and "
-      "SCHISM do not run.\n",
-      made.Boundaries.TouchingNodes);
+      "tipp: warning: the border of the mesh touches itself at {}, with which ADCIRC and SCHISM do "
+      "not run.\n",
+      counted(made.Boundaries.TouchingNodes, "node", "nodes"));
   }
   if (made.Boundaries.LoneOpenNodes > 0)
   {
     fmt::print(stderr,
-      "tipp: warning: {} nodes of the open boundary have no open neighbour on the border; they are "
-      "mainland.\n",
-      made.Boundaries.LoneOpenNodes);
+      "tipp: warning: {} no open neighbour on the border, and so become mainland.\n",
+      counted(made.Boundaries.LoneOpenNodes, "node of the open boundary has",
+        "nodes of the open boundary have"));
   }
 }
 
@@ -446,6 +465,30 @@ nlohmann::ordered_json listOutside(const RefinedMesh& mesh, double angle, bool i
   return list;
 }
 
+/// Prints a summary. `json`: the statistics.
+void printFigures(const MeshArguments& arguments, const MadeMesh& made,
+  const nlohmann::ordered_json& json, double seconds)
+{
+  fmt::print("{} points, {} in {:.3f} s, {:.1f} MB\n", made.Points.size(),
+    counted(std::int64_t(made.Triangles.size() / 3), "triangle", "triangles"), seconds,
+    double(peakMemoryBytes()) / 1e6);
+  const auto thin = std::int64_t(json["below_bound"].size());
+  const auto large = std::int64_t(json["above_area"].size());
+  if (thin > 0)
+  {
+    const auto forced = std::count_if(made.Refined.Outside.begin(), made.Refined.Outside.end(),
+      [](const TriangleOutside& outside)
+      { return outside.Why == TriangleOutside::Reason::InputAngle; });
+    fmt::print(
+      "{} an angle below {:g} degrees, {} of them because segments of the input meet below 60\n",
+      counted(thin, "triangle has", "triangles have"), arguments.MinimumAngle, forced);
+  }
+  if (large > 0)
+  {
+    fmt::print("{} larger than asked\n", counted(large, "triangle is", "triangles are"));
+  }
+}
+
 /// Writes the statistics and prints a summary. Throws IOError.
 void report(const MeshArguments& arguments, const MadeMesh& made, double seconds)
 {
@@ -456,7 +499,7 @@ void report(const MeshArguments& arguments, const MadeMesh& made, double seconds
     { "points_given", made.GivenPoints }, { "points_left_out", made.LeftOut },
     { "points_added", figures.Inserted }, { "segment_splits", figures.Splits },
     { "levels", figures.Levels }, { "rounds", figures.Rounds }, { "blocks", figures.Blocks },
-    { "bandwidth", made.Bandwidth }, { "mesh_seconds", seconds },
+    { "moves", figures.Moves }, { "bandwidth", made.Bandwidth }, { "mesh_seconds", seconds },
     { "peak_memory_bytes", peakMemoryBytes() } };
   if (made.Depths)
   {
@@ -470,23 +513,7 @@ void report(const MeshArguments& arguments, const MadeMesh& made, double seconds
   {
     writeJson(arguments.Statistics, json);
   }
-  fmt::print("{} points, {} triangles in {:.3f} s, {:.1f} MB\n", made.Points.size(), triangles,
-    seconds, double(peakMemoryBytes()) / 1e6);
-  const std::size_t thin = json["below_bound"].size();
-  const std::size_t large = json["above_area"].size();
-  if (thin > 0)
-  {
-    const auto forced = std::count_if(made.Refined.Outside.begin(), made.Refined.Outside.end(),
-      [](const TriangleOutside& outside)
-      { return outside.Why == TriangleOutside::Reason::InputAngle; });
-    fmt::print("{} triangles have an angle below {:g} degrees, {} of them because segments of the "
-               "input meet below 60\n",
-      thin, arguments.MinimumAngle, forced);
-  }
-  if (large > 0)
-  {
-    fmt::print("{} triangles are larger than asked\n", large);
-  }
+  printFigures(arguments, made, json, seconds);
 }
 
 /// Makes the size function. Throws IOError and std::invalid_argument.
@@ -519,6 +546,7 @@ bool makeMesh(const MeshArguments& arguments, MadeMesh& made)
   request.IsConvex = arguments.Convex;
   request.HasValues = !made.Points.Columns.empty();
   request.Refinement = refinementOptions(arguments);
+  request.SmoothingRounds = arguments.SmoothingRounds;
   const Report progress = progressOn(bar);
   request.Refinement.Progress = progress;
   std::optional<SizeFunction> sizes;
@@ -554,9 +582,21 @@ bool makeMesh(const MeshArguments& arguments, MadeMesh& made)
     made.Segments.push_back({ segment.A, segment.B });
   }
   made.Refined = std::move(mesh.Mesh);
-  made.Holes = source.Holes;
   made.LeftOut = removeUnused(made);
   return true;
+}
+
+/// Returns a point in each hole, with which the segments of Triangle's .poly file enclose the mesh.
+std::vector<Point2> holesOf(const MadeMesh& made)
+{
+  const HolePoints holes = findHolePoints(made.Points.XY, viewOf(made), made.Segments);
+  if (holes.TooThin > 0)
+  {
+    fmt::print(stderr,
+      "tipp: warning: {} too thin for a point, so the .poly file fills what it leaves out.\n",
+      counted(holes.TooThin, "hole is", "holes are"));
+  }
+  return holes.Points;
 }
 
 bool writeMade(const MeshArguments& arguments, const MadeMesh& made, const PathState& before)
@@ -567,7 +607,10 @@ bool writeMade(const MeshArguments& arguments, const MadeMesh& made, const PathS
   options.Regions = made.Regions;
   options.Boundaries = made.Boundaries.Lists;
   options.Segments = made.Segments;
-  options.Holes = made.Holes;
+  if (arguments.OutputIs == Opener::Triangle)
+  {
+    options.Holes = holesOf(made);
+  }
   return writeMesh(arguments.Output, made.Points, viewOf(made), options);
 }
 
@@ -604,7 +647,8 @@ PathState requireOutputs(const MeshArguments& arguments)
   std::vector<std::string> named = arguments.Points;
   named.insert(named.end(),
     { arguments.Constraints.Lines, arguments.Constraints.Boundary, arguments.Sizes.Depth,
-      isNumber(arguments.Sizes.Size) ? "" : arguments.Sizes.Size, arguments.OpenPolygon });
+      isNumber(arguments.Sizes.Size) ? "" : arguments.Sizes.Size, arguments.OpenPolygon,
+      arguments.RegionFile });
   std::vector<std::string> inputs;
   for (const std::string& input : named)
   {
@@ -689,10 +733,20 @@ void requireFitting(const MeshArguments& arguments)
     arguments.OpenDepth ? "--open-deeper" : "--open",
     "needs an output named .14, .grd or .gr3, which lists boundaries");
   refuseIf(arguments.DepthsAtNodes && !hasDepths, "--depth-at-nodes", "needs --depth");
-  refuseIf(arguments.DepthsAtNodes && !formatOf(arguments.Sizes.Depth, Use::Rasters),
-    "--depth-at-nodes", "needs --depth with a raster");
+  refuseIf(arguments.DepthsAtNodes && !arguments.depthsAreRaster(), "--depth-at-nodes",
+    "needs --depth with a raster");
+  refuseIf(arguments.Sizes.RasterBounds && !isOpenedBy(arguments.Sizes.Depth, Opener::Npy) &&
+      !isOpenedBy(arguments.Sizes.Size, Opener::Npy),
+    "--npy-bounds", "needs --size or --depth with an .npy file");
   refuseIf(arguments.Sizes.DepthIsElevation && !hasDepths, "--positive-up", "needs --depth");
   refuseIf(!arguments.Sizes.DepthColumn.empty() && !hasDepths, "--depth-column", "needs --depth");
+}
+
+/// Validates a finite number on the command line: returns an error message, or an empty text.
+std::string checkFinite(const std::string& text)
+{
+  const auto value = wholeNumber<double>(text);
+  return value && std::isfinite(*value) ? "" : "'" + text + "' is not a number";
 }
 
 /// Validates --size on the command line: a path, or a number above 0.
@@ -715,6 +769,9 @@ void addShape(CLI::App& command, MeshArguments& arguments)
       "x and y of a point and the largest area of triangles (inf: no further limit) in its part of "
       "the domain, up to the segments around it; may be given several times")
     ->allow_extra_args(false);
+  command.add_option("--regions", arguments.RegionFile,
+    "A file of such points, after those of --region: a .poly file with areas of regions, or points "
+    "with a column area or size");
   command
     .add_option("--hole", arguments.Constraints.Holes,
       "x and y of a point in a hole: there are no triangles up to the segments around it; may be "
@@ -729,6 +786,13 @@ void addShape(CLI::App& command, MeshArguments& arguments)
       "domain)")
     ->check(checkPositive);
   command.add_option("--max-points", arguments.MostPoints, "Add at most so many points")
+    ->check(CLI::PositiveNumber);
+  command
+    .add_option("--smooth", arguments.SmoothingRounds,
+      "Move added points inside the domain towards the mean of their neighbours, where angles grow "
+      "and all bounds hold: the number of rounds, or 5 without a number")
+    ->expected(0, 1)
+    ->default_str("5")
     ->check(CLI::PositiveNumber);
   command.add_flag("--keep-border", arguments.KeepBorder, "Add no points on the border");
   command.add_flag("--keep-segments", arguments.KeepSegments, "Add no points on any segment");
@@ -772,12 +836,27 @@ void addModel(CLI::App& command, MeshArguments& arguments)
     "The column of the points of --depth (default: depth, or z with --positive-up)");
   command.add_flag("--positive-up", arguments.Sizes.DepthIsElevation,
     "The values of --depth are elevations, positive upwards");
+  command
+    .add_option_function<std::vector<double>>(
+      "--npy-bounds",
+      [&arguments](const std::vector<double>& bounds)
+      {
+        const Box2 box = boxOfVtkBounds<2>(bounds.data());
+        refuseIf(box.isEmpty(), "--npy-bounds",
+          "is " + inWords(inSpace(box)) + ", which is no range; give xmin xmax ymin ymax");
+        arguments.Sizes.RasterBounds = box;
+      },
+      "The .npy files of --size and --depth are rasters, the lowest row first, with these outer "
+      "borders: xmin xmax ymin ymax")
+    ->expected(4);
   command.add_flag("--depth-at-nodes", arguments.DepthsAtNodes,
     "Interpolate a raster at the nodes; otherwise a node gets the mean over its cell");
   command.add_option(
     "--open", arguments.OpenPolygon, "A file with polygons: border nodes inside are open boundary");
-  command.add_option(
-    "--open-deeper", arguments.OpenDepth, "Border nodes deeper than this are open boundary");
+  command
+    .add_option(
+      "--open-deeper", arguments.OpenDepth, "Border nodes deeper than this are open boundary")
+    ->check(checkFinite);
   command.add_flag("--keep-order", arguments.KeepOrder,
     "Leave the nodes in order, the input's first; otherwise they are renumbered for a low "
     "bandwidth");

@@ -20,6 +20,11 @@
 
 namespace tipp
 {
+
+std::string counted(std::int64_t count, const char* one, const char* many)
+{
+  return fmt::format("{} {}", count, count == 1 ? one : many);
+}
 namespace
 {
 

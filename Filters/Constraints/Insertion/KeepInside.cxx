@@ -130,7 +130,7 @@ std::vector<char> reachedFrom(PointsView points, const Buffer<Id>& ids,
 }
 
 template <typename Id>
-void keepInside(
+std::int64_t keepInside(
   PointsView points, Buffer<Id>& ids, const std::vector<IdSegment>& edges, const Cuts& cuts)
 {
   // Computes everything before triangles are removed, because then paths from outside would be
@@ -156,6 +156,7 @@ void keepInside(
     std::transform(sums.begin(), sums.end(), sums.begin(), [](int sum) { return sum & 1; });
     removeLess(sums, 1);
   }
+  std::int64_t inverted = 0;
   if (!cuts.Polygons.empty())
   {
     const ConstraintEdges polygons(cuts.Polygons);
@@ -163,10 +164,14 @@ void keepInside(
       sumsFromOutside(ids, neighbors, [&](PointId a, PointId b) { return polygons.balance(a, b); });
     const bool onlyHoles =
       std::none_of(windings.begin(), windings.end(), [](int winding) { return winding > 0; });
+    inverted = onlyHoles
+      ? 0
+      : std::count_if(windings.begin(), windings.end(), [](int winding) { return winding < 0; });
     removeLess(windings, onlyHoles ? 0 : 1);
   }
   ids.truncate(
     3 * keepTriangles(ids.data(), ids.size() / 3, [&](std::size_t t) { return !isRemoved[t]; }));
+  return inverted;
 }
 
 template <typename Id>
@@ -189,16 +194,18 @@ std::vector<PositionPair> edgesAround(PointsView points, const Buffer<Id>& ids,
 
 } // namespace
 
-void keepInside(PointsView points, Triangulation& triangulation,
+std::int64_t keepInside(PointsView points, Triangulation& triangulation,
   const std::vector<IdSegment>& edges, const Cuts& cuts)
 {
   if (cuts.Polygons.empty() && cuts.Boundary.empty() && cuts.Holes.empty())
   {
-    return;
+    return 0;
   }
-  triangulation.Ids64.empty() ? keepInside(points, triangulation.Ids32, edges, cuts)
-                              : keepInside(points, triangulation.Ids64, edges, cuts);
+  const std::int64_t inverted = triangulation.Ids64.empty()
+    ? keepInside(points, triangulation.Ids32, edges, cuts)
+    : keepInside(points, triangulation.Ids64, edges, cuts);
   triangulation.Blocks.clear();
+  return inverted;
 }
 
 std::vector<PositionPair> edgesAroundHoles(const std::vector<Point2>& hull,

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace tipp
@@ -31,9 +32,11 @@ struct Cuts
 };
 
 /// Removes the triangles that are not inside polygons and boundary, and those in holes. `edges` are
-/// the segments of all constraints. Throws std::invalid_argument if the point of a hole is in no
-/// triangle.
-VTKTIPPFILTERS_EXPORT void keepInside(PointsView points, Triangulation& triangulation,
+/// the segments of all constraints. Returns how many triangles are left out because clockwise
+/// polygons alone surround them, though others are inside: one part of a polygon that crosses
+/// itself, or of a hole that lies outside. Throws std::invalid_argument if the point of a hole is
+/// in no triangle.
+VTKTIPPFILTERS_EXPORT std::int64_t keepInside(PointsView points, Triangulation& triangulation,
   const std::vector<IdSegment>& edges, const Cuts& cuts);
 
 using PositionPair = std::array<Point2, 2>;

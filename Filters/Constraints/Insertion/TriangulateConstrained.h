@@ -8,6 +8,7 @@
 #include "Triangulation/Triangulate.h"
 #include "vtkTIPPFiltersModule.h"
 
+#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -19,6 +20,7 @@ struct ConstrainedTriangulation
   Triangulation Mesh; ///< of the points and, after them, the crossings
   /// The constraints as chains of edges between representatives of their vertices.
   ResolvedConstraints Constraints;
+  std::int64_t Inverted = 0; ///< triangles that clockwise polygons alone surround: see keepInside()
 };
 
 /// Removes triangles of a triangulation of the points.

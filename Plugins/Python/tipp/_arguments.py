@@ -208,7 +208,8 @@ DEM = {"align": "AlignToResolution", "soft": "SoftBreaklines", "max_edge": "Maxi
        "thin_size": "ThinningSize", "thin_rule": "ThinningRule", "memory": "MemoryLimit", "threads": "NumberOfThreads"}
 MESHING = {"min_angle": "MinimumAngle", "max_area": "MaximumArea", "shortest_edge": "ShortestEdge",
            "keep_border": "KeepBorder", "keep_segments": "KeepSegments", "convex": "Convex", "crossings": "SplitCrossings",
-           "marks": "GenerateSegments", "most_points": "MostPoints", "threads": "NumberOfThreads"}
+           "marks": "GenerateSegments", "most_points": "MostPoints", "smooth": "SmoothingRounds",
+           "threads": "NumberOfThreads"}
 QUERY = {"memory": "MemoryLimit", "step": "Step", "threads": "NumberOfThreads"}
 READ = {"merge": "MergePieces", "tiling": "Tiling", "memory_limit": "MemoryLimit"}
 WRITE = {"tiling": "Tiling", "duplicate_borrowers": "DuplicateBorrowers", "memory_limit": "MemoryLimit",

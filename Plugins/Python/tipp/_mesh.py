@@ -54,6 +54,7 @@ def mesh(
     keep_segments: bool = False,
     shortest_edge: float = 0.0,
     most_points: int | None = None,
+    smooth: int = 0,
     crossings: str = "split",
     marks: str = "none",
     point_data: Mapping[str, ArrayLike] | None = None,
@@ -105,6 +106,10 @@ def mesh(
         that is more.
     most_points
         The largest number of points that refinement adds, in one thread then. None: no limit.
+    smooth
+        The largest number of rounds in which points that refinement added inside the domain are moved towards the mean
+        of their neighbours. A point moves only if the smallest angle around it grows and all bounds hold. 0: none; 5 is
+        mostly enough.
     crossings
         "split": where segments cross, a new point is added. "refuse": crossing segments raise RuntimeError.
     marks
@@ -158,6 +163,7 @@ def mesh(
         "keep_segments": check.flag(keep_segments, "keep_segments"),
         "shortest_edge": check.number(shortest_edge, "shortest_edge", at_least=0),
         "most_points": 0 if most_points is None else check.whole(most_points, "most_points", at_least=1),
+        "smooth": check.whole(smooth, "smooth", at_least=0),
         "crossings": check.choice(crossings, "crossings", _CROSSINGS),
         "marks": check.choice(marks, "marks", _MARKS),
         "threads": check.threads(threads),

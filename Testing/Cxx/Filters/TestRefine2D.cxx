@@ -383,6 +383,27 @@ TEST_F(Refine2D, ThreadsDoNotMatter)
   }
 }
 
+TEST_F(Refine2D, ValuesOutOfRangeAreErrors)
+{
+  const auto expectError = [this](const char* words)
+  {
+    this->Heard.Errors.clear();
+    EXPECT_EQ(this->run(refinedSquares())->GetNumberOfCells(), 0);
+    ASSERT_EQ(this->Heard.Errors.size(), 1U);
+    EXPECT_NE(this->Heard.Errors[0].find(words), std::string::npos) << this->Heard.Errors[0];
+  };
+  this->Filter->SetMinimumAngle(-5);
+  expectError("MinimumAngle is -5; give a number from 0 to 34.");
+  this->Filter->SetMinimumAngle(35);
+  expectError("MinimumAngle is 35; give a number from 0 to 34.");
+  this->Filter->SetMinimumAngle(30);
+  this->Filter->SetMaximumArea(-1);
+  expectError("MaximumArea is -1; give 0 or more.");
+  this->Filter->SetMaximumArea(0);
+  this->Filter->SetMostPoints(-1);
+  expectError("MostPoints is -1; give 0 or more.");
+}
+
 TEST_F(Refine2D, AbortLeavesTheOutputEmpty)
 {
   vtkNew<vtkCallbackCommand> abort;

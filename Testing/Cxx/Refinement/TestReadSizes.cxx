@@ -307,10 +307,13 @@ TEST_F(ReadSizes, ColumnsAreChosenByName)
   expectIOError(arguments.Size, "'a', 'b'", [&] { this->sizesOf(arguments); });
 }
 
-TEST_F(ReadSizes, TablesWithoutNamesHaveTheSizeThird)
+TEST_F(ReadSizes, AnOnlyColumnOfAnotherNameMustBeNamed)
 {
-  const std::string path = this->Folder.file("a.txt", "0 0 2\n8 0 2\n4 6 2\n");
-  EXPECT_NEAR(2, this->sizesOf(ofFile(path)).at({ 3, 3 }), 1e-12);
+  SizeArguments arguments = ofFile(this->Folder.file("a.txt", "0 0 2\n8 0 2\n4 6 2\n"));
+  expectIOError(
+    arguments.Size, "has no column 'size'; name one of 'z'", [&] { this->sizesOf(arguments); });
+  arguments.Column = "z";
+  EXPECT_NEAR(2, this->sizesOf(arguments).at({ 3, 3 }), 1e-12);
 }
 
 TEST_F(ReadSizes, ResultsAreTheSameForAnyThreads)

@@ -283,6 +283,47 @@ TEST_F(TippMesh, AreaLimitHoldsInARegion)
   EXPECT_GT(this->largestArea("mesh.vtu", 20, 40), 2);
 }
 
+TEST_F(TippMesh, AreasOfRegionsAreReadFromPolyFiles)
+{
+  const std::string graph = "6 2 0 0\n1 0 0\n2 4 0\n3 8 0\n4 8 4\n5 4 4\n6 0 4\n"
+                            "7 0\n1 1 2\n2 2 3\n3 3 4\n4 4 5\n5 5 6\n6 6 1\n7 2 5\n0\n";
+  this->Folder.file("parts.poly", graph + "2\n1 1 1 7 0.1\n2 7 1 3 -1\n");
+  this->make("parts.vtu", { "--regions", "parts.poly" }, "parts.poly");
+  EXPECT_LE(this->largestArea("parts.vtu", 0, 4), 0.1);
+  EXPECT_GT(this->largestArea("parts.vtu", 4, 8), 0.5);
+  this->Folder.file("parts.poly", graph + "1\n1 7 1 0.2\n"); // an attribute that is the area
+  this->make("parts.vtu", { "--regions", "parts.poly" }, "parts.poly");
+  EXPECT_LE(this->largestArea("parts.vtu", 4, 8), 0.2);
+  this->Folder.file("parts.csv", "x,y,size\n1,1,0.5\n7,1,inf\n");
+  this->make("parts.vtu", { "--regions", "parts.csv" }, "parts.poly");
+  EXPECT_LE(this->largestArea("parts.vtu", 0, 4), std::sqrt(3) / 4 * 0.25);
+  EXPECT_GT(this->largestArea("parts.vtu", 4, 8), 0.5);
+}
+
+TEST_F(TippMesh, FilesOfRegionsMustHaveLimits)
+{
+  this->expectFailure(
+    1, "lake.poly: lists no regions", { "lake.poly", "-o", "out.vtu", "--regions", "lake.poly" });
+  this->Folder.file("regions.csv", "x,y,depth\n20,2,3\n");
+  this->expectFailure(1, "regions.csv: has no column 'area' or 'size'",
+    { "lake.poly", "-o", "out.vtu", "--regions", "regions.csv" });
+  this->Folder.file("regions.csv", "x,y,area\n20,2,-1\n");
+  this->expectFailure(1, "regions.csv: has the area -1 at point 0",
+    { "lake.poly", "-o", "out.vtu", "--regions", "regions.csv" });
+}
+
+TEST_F(TippMesh, PolygonsThatCrossThemselvesAreAWarning)
+{
+  if (!hasGdal())
+  {
+    GTEST_SKIP() << "built without GDAL";
+  }
+  this->Folder.file(
+    "bow.geojson", R"({"type": "Polygon", "coordinates": [[[0,0],[6,6],[6,0],[0,4],[0,0]]]})");
+  EXPECT_NE(std::string::npos,
+    this->make("bow.vtu", {}, "bow.geojson").find("repair it if it crosses itself"));
+}
+
 TEST_F(TippMesh, BorderIsKeptOnRequest)
 {
   this->make("mesh.14", { "--max-area", "9", "--keep-border" });
@@ -341,6 +382,26 @@ TEST_F(TippMesh, SizesOfARasterHoldWhereItIs)
   this->make("mesh.vtu", { "--size", "size.asc" });
   EXPECT_LE(this->largestArea("mesh.vtu", 0, 15), 1.0001 * areaFor(1));
   EXPECT_GT(this->largestArea("mesh.vtu", 25, 40), areaFor(3));
+}
+
+TEST_F(TippMesh, NpyFilesAreRastersWithBounds)
+{
+  // 2 x 2 pixels from the south-west: sizes or depths.
+  std::string bytes = "\x93NUMPY\x01";
+  bytes += '\0';
+  const std::string header = "{'descr': '<f8', 'fortran_order': False, 'shape': (2, 2), }";
+  bytes += std::string{ char(118), '\0' } + header + std::string(117 - header.size(), ' ') + "\n";
+  const std::array<double, 4> values{ 2, 8, 2, 8 };
+  bytes.append(reinterpret_cast<const char*>(values.data()), sizeof(values));
+  this->Folder.file("west.npy", bytes);
+  const Words bounds{ "--npy-bounds", "0", "40", "0", "30" };
+  this->make("sized.vtu", with({ "--size", "west.npy" }, bounds));
+  EXPECT_LE(this->largestArea("sized.vtu", 0, 10), std::sqrt(3) / 4 * 4 * 1.1);
+  EXPECT_GT(this->largestArea("sized.vtu", 25, 40), std::sqrt(3) / 4 * 4 * 1.5);
+  this->make("deep.14", with({ "--depth", "west.npy", "--depth-at-nodes" }, bounds));
+  this->expectUsageError("--npy-bounds", "needs --size or --depth with an .npy file", bounds);
+  this->expectUsageError("--npy-bounds", "which is no range",
+    { "--size", "west.npy", "--npy-bounds", "40", "0", "0", "30" });
 }
 
 TEST_F(TippMesh, SizesOfPointsAreInAColumn)
@@ -584,6 +645,25 @@ TEST_F(TippMesh, AnotherGraphIsNotReplaced)
   this->expectFailure(1, "mine.poly: would be replaced", { "lake.poly", "-o", "mine.node" });
 }
 
+TEST_F(TippMesh, HolesOfPolygonsAreInTheGraph)
+{
+  if (!hasGdal())
+  {
+    GTEST_SKIP() << "built without GDAL";
+  }
+  // Three holes, two of which touch at a corner, and an island in the third one.
+  this->Folder.file("holes.geojson",
+    R"({"type": "MultiPolygon", "coordinates": [
+      [[[0,0],[40,0],[40,30],[0,30],[0,0]], [[4,4],[8,6],[4,8],[4,4]], [[8,6],[12,4],[12,8],[8,6]],
+       [[20,10],[36,10],[36,26],[20,26],[20,10]]],
+      [[[24,14],[32,14],[32,22],[24,22],[24,14]]]]})");
+  this->make("again.node", {}, "holes.geojson");
+  EXPECT_NEAR(1200 - 8 - 8 - 256 + 64, this->area("again.node"), 1e-9);
+  this->make("second.node", {}, "again.poly");
+  EXPECT_NEAR(this->area("again.node"), this->area("second.node"), 1e-9);
+  this->prove({ "second.node" }, { "--constraints", "again.poly" });
+}
+
 TEST_F(TippMesh, PointsInHolesAreInTheGraph)
 {
   this->make("again.node");
@@ -635,6 +715,8 @@ TEST_F(TippMesh, OpenBoundariesNeedAnOutputWithLists)
   this->expectUsageError("--open-deeper", words, { "--open-deeper", "9", "--depth", "d.csv" });
   this->expectUsageError("--open-deeper", "cannot be combined with --open",
     { "--open", "lake.poly", "--open-deeper", "9", "--depth", "d.csv" }, "out.14");
+  this->expectUsageError("--open-deeper", "not a number",
+    { "--depth", "soundings.csv", "--open-deeper", "nan" }, "out.14");
 }
 
 TEST_F(TippMesh, OutputsThatLosePointsAreRefused)

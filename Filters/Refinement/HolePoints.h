@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippHolePoints_h
+#define tippHolePoints_h
+
+#include "Meshes/MeshOptions.h"
+#include "Predicates/Geometry.h"
+#include "vtkTIPPFiltersModule.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace tipp
+{
+
+/// Points in the holes of a mesh, as files of Triangle list them.
+struct HolePoints
+{
+  std::vector<Point2> Points; ///< one in each hole, by the lowest node of its border
+  std::int64_t TooThin = 0;   ///< holes without a point, because doubles have none inside
+};
+
+/// Finds a point in each hole: in each bounded part of the plane that no triangle covers. `xy`: x
+/// and y of the nodes, interleaved. `segments`: pairs of nodes, among them all edges of the border.
+/// The triangles are counter-clockwise and do not overlap. One thread.
+VTKTIPPFILTERS_EXPORT HolePoints findHolePoints(const std::vector<double>& xy,
+  TrianglesView triangles, const std::vector<std::array<std::int64_t, 2>>& segments);
+
+} // namespace tipp
+
+#endif
