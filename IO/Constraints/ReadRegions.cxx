@@ -34,11 +34,12 @@ std::vector<RegionLimit> readPolyRegions(const std::string& path)
     }
   }
   std::vector<RegionLimit> regions;
-  if (rows.remainingLines() == 0)
+  if (!rows.nextIfAny())
   {
     return regions; // the list may be left out
   }
-  const std::int64_t count = nextTriangleCount(rows, "the number of regions");
+  rows.require(1, "the number of regions");
+  const std::int64_t count = rows.integer(0);
   for (std::int64_t i = 0; i < count; ++i)
   {
     nextTriangleRow(rows, 4, "a region");

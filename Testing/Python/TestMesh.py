@@ -110,6 +110,13 @@ class Bounds(unittest.TestCase):
         points = np.random.default_rng(3).random((60, 2))
         self.assertEqual(60, len(tipp.mesh(points, min_angle=0).points))
 
+    def test_smoothing_makes_angles_grow(self):
+        plain, smooth = (tipp.mesh(SQUARES, OUTER, max_area=0.05, smooth=rounds) for rounds in (0, 5))
+        self.assertGreater(angles(smooth).mean(), angles(plain).mean() + 1)
+        self.assertGreaterEqual(angles(smooth).min(), 30 - 1e-9)
+        self.assertLessEqual(areas(smooth).max(), 0.05)
+        np.testing.assert_array_equal(plain.cells, smooth.cells)
+
     def test_threads_do_not_matter(self):
         points = np.random.default_rng(2).random((1000, 2))
         one, four = (tipp.mesh(points, size=lambda x, y: 0.005 + 0.03 * x, threads=count) for count in (1, 4))
@@ -257,6 +264,7 @@ class Misuse(unittest.TestCase):
         self.assert_refused(ValueError, "min_angle is -1; give 0 or more", SQUARES, min_angle=-1)
         self.assert_refused(ValueError, "max_area is 0; give a number above 0", SQUARES, max_area=0)
         self.assert_refused(ValueError, "most_points is 0; give a whole number from 1", SQUARES, most_points=0)
+        self.assert_refused(ValueError, "smooth is -1; give a whole number from 0", SQUARES, smooth=-1)
         self.assert_refused(TypeError, "convex is 1; give True or False", SQUARES, convex=1)
         self.assert_refused(ValueError, "marks is 'flags'; it is one of none, lines", SQUARES, marks="flags")
         self.assert_refused(ValueError, "neither points nor segments nor polygons")

@@ -619,6 +619,16 @@ TEST_F(TippMesh, StatisticsHaveAllFigures)
   EXPECT_TRUE(stats["above_area"].is_array());
 }
 
+TEST_F(TippMesh, SmoothedMeshesAreProvedAndTheSameForAnyThreads)
+{
+  this->make("one.vtu", { "--max-area", "1", "--smooth", "5", "--threads", "1" });
+  this->make("four.vtu", { "--max-area", "1", "--threads", "4", "--smooth" }); // 5 by default
+  EXPECT_GT(this->stats()["moves"], 0);
+  this->prove({ "four.vtu" }, { "--constraints", "lake.poly", "--max-area", "1" });
+  EXPECT_EQ(contentOf(this->Folder.path("one.vtu")), contentOf(this->Folder.path("four.vtu")));
+  this->expectUsageError("--smooth", "--smooth", { "--smooth", "0" });
+}
+
 TEST_F(TippMesh, ResultIsTheSameForAnyNumberOfThreads)
 {
   this->Folder.file("sizes.csv", "x,y,size\n-1,-1,.1\n41,-1,.5\n-1,31,.5\n41,31,.1\n30,20,.3\n");
