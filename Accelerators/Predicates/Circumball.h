@@ -19,6 +19,19 @@ namespace tipp
 template <std::size_t D>
 class VTKTIPPACCELERATORS_EXPORT BallIntervals
 {
+public:
+  /// A box that contains the ball: rounded outward, and infinite if doubles cannot bound it.
+  Box<D> bounds() const
+  {
+    Box<D> box = this->Centre;
+    for (std::size_t k = 0; k < D; ++k)
+    {
+      box.Min[k] -= this->Largest;
+      box.Max[k] += this->Largest;
+    }
+    return box;
+  }
+
 protected:
   using Vector = Point<D>;
   static constexpr double Infinity = std::numeric_limits<double>::infinity();
@@ -121,6 +134,8 @@ class VTKTIPPACCELERATORS_EXPORT Circumdisk : BallIntervals<2>
 public:
   Circumdisk(const Point2& a, const Point2& b, const Point2& c);
 
+  using BallIntervals<2>::bounds;
+
   /// Whether disk and box share a point; touching counts.
   bool meets(const Box2& box) const { return this->meetsBox(box); }
 
@@ -139,14 +154,6 @@ public:
       inner.Min.y < box.Min.y || box.Max.y < inner.Max.y;
     return !reachesOut && this->liesInsideExactly(box);
   }
-
-  /// A box that contains the disk: rounded outward, and infinite if doubles cannot bound it.
-  Box2 bounds() const
-  {
-    const auto& [low, high] = this->Centre;
-    return { { low.x - this->Largest, low.y - this->Largest },
-      { high.x + this->Largest, high.y + this->Largest } };
-  }
 };
 
 /// The closed ball through the corners of a tetrahedron, computed once and tested exactly against
@@ -155,6 +162,8 @@ class VTKTIPPACCELERATORS_EXPORT Circumball : BallIntervals<3>
 {
 public:
   Circumball(const Point3& a, const Point3& b, const Point3& c, const Point3& d);
+
+  using BallIntervals<3>::bounds;
 
   /// Whether ball and box share a point; touching counts.
   bool meets(const Box3& box) const { return this->meetsBox(box); }

@@ -24,18 +24,18 @@ namespace
 InputSurvey surveyRanks(
   Communicator& ranks, PointsView& points, std::vector<std::int64_t>& rejected, int threads)
 {
-  PointSurvey local = surveyPoints(points, threads);
+  PointSurveyOf<2> local = surveyPoints(points, threads);
   rejected = std::move(local.Rejected);
   InputSurvey own;
   own.Points = std::int64_t(points.size());
   own.Rejected = std::int64_t(rejected.size());
   own.Bounds = local.Bounds;
-  CollinearityTest line;
-  for (std::size_t i = 0; own.Collinear && i < points.size(); ++i)
+  DimensionTest<2> dimension;
+  for (std::size_t i = 0; !dimension.isFull() && i < points.size(); ++i)
   {
-    own.Collinear = line.add(points[i]);
+    dimension.add(points[i]);
   }
-  own.Line = line.line();
+  own.Simplex = dimension.simplex();
   std::vector<InputSurvey> parts = ranks.allGather(own);
   InputSurvey survey = joinSurveys(parts);
   if (survey.Points == survey.Rejected)
@@ -145,7 +145,7 @@ public:
     {
       this->Result.Rejected.push_back(this->Input.globalId(std::size_t(i)));
     }
-    if (survey.Collinear)
+    if (survey.dimension() < 2)
     {
       this->sortOutOnly(survey.Bounds);
     }

@@ -2,7 +2,8 @@
 #include "Distributed/Plan.h"
 
 #include "Engine/PartitionSchedule.h"
-#include "Triangulation/BoundaryTriangles.h"
+#include "Triangulation/BoundaryCells.h"
+#include "Triangulation/InitialMesh.h"
 
 #include <algorithm>
 #include <cmath>
@@ -68,7 +69,7 @@ std::vector<std::vector<PartitionIndex>> predictStages(const Tiling& majors,
   {
     withPoints.push_back(count > 0);
   }
-  const PartitionOrder order(withPoints, triangulateVertices(majors, vertices, 1));
+  const PartitionOrder order(withPoints, triangulateVertices<2>(majors, vertices, 1));
   std::vector<std::vector<PartitionIndex>> stages(order.colourCount());
   for (const PartitionIndex p : order.sequence())
   {

@@ -2,6 +2,7 @@
 #include "Distributed/SharedInitialMesh.h"
 
 #include "Kernel/DelaunayKernel.h"
+#include "Triangulation/KernelCells.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -87,7 +88,7 @@ private:
   /// Finds the triangles that meet a chosen partition.
   void findTriangles()
   {
-    this->Found = tipp::findTriangles(this->Kernel, this->Boxes, &this->Choice, this->Threads);
+    this->Found = findCells<2>(this->Kernel, this->Boxes, &this->Choice, this->Threads);
     this->Sets.assign(this->Kernel.triangleCount(), NoSet);
     for (std::size_t i = 0; i < this->Found.Indices.size(); ++i)
     {
@@ -132,7 +133,7 @@ private:
   const Regions& Boxes;
   const std::vector<BoundaryVertex>& Initial;
   const std::vector<BoundaryVertex>& Artificial;
-  RegionChoice Choice; ///< the chosen partitions' regions
+  RegionChoice<2> Choice; ///< the chosen partitions' regions
   const int Threads;
   std::vector<std::size_t> Begins; ///< index of each partition's first point in Initial
   std::vector<std::size_t> Ends;
@@ -140,7 +141,7 @@ private:
   bool IsAny = false;           ///< whether a chosen partition has points
   DelaunayKernel Kernel;
   std::vector<BoundaryVertex> Vertices; ///< the kernel's points
-  KernelTriangles Found;
+  KernelCells<2> Found;
   std::vector<std::uint32_t> Sets; ///< by the kernel's triangle: its set in Found
 };
 

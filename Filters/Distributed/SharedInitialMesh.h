@@ -3,7 +3,7 @@
 #define tippSharedInitialMesh_h
 
 #include "Engine/PartitionSchedule.h"
-#include "Triangulation/BoundaryTriangles.h"
+#include "Triangulation/BoundaryCells.h"
 #include "Triangulation/Tiling.h"
 
 #include <cstdint>

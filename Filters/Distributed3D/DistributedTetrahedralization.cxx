@@ -60,24 +60,27 @@ private:
   /// Numbers the points, and agrees with other ranks on a factor for all coordinates.
   void survey()
   {
-    const PointsView3& points = this->Input.Points;
+    const PointsView3 points = this->Input.Points;
     const std::vector<std::int64_t> firsts = firstIndices(this->Ranks, std::int64_t(points.size()));
     this->Input.FirstId = firsts[std::size_t(this->Ranks.rank())];
     this->Result.AllPoints = firsts.back();
     this->Figures.InputPoints = std::int64_t(points.size());
-    const PointSurvey3 found = surveyPoints(points);
+    const PointSurveyOf<3> found = surveyPoints(points, this->Threads);
     for (const std::int64_t i : found.Rejected)
     {
       this->Result.Rejected.push_back(this->Input.globalId(std::size_t(i)));
     }
-    std::vector<double> largest{ -found.Largest };
-    this->Ranks.minimum(largest);
-    const double factor = moderateFactor(-largest[0]);
-    std::vector<std::int64_t> sums{ areExactTimes(points, factor) ? 0 : 1,
-      std::int64_t(points.size() - found.Rejected.size()) };
-    this->Ranks.sum(sums);
-    this->Input.Points.Factor = sums[0] == 0 ? factor : 1;
-    this->FinitePoints = sums[1];
+    Box3 bounds = Box3::empty();
+    for (const Box3& other : this->Ranks.allGather(found.Bounds))
+    {
+      bounds.extend(other);
+    }
+    // All ranks must scale, or none.
+    const PointsView3 moderate = withModerateMagnitude(points, bounds);
+    this->Input.Points = isTrueOnAny(this->Ranks, moderate.factor() == 1) ? points : moderate;
+    std::vector<std::int64_t> finite{ std::int64_t(points.size() - found.Rejected.size()) };
+    this->Ranks.sum(finite);
+    this->FinitePoints = finite[0];
   }
 
   /// Returns a sample of all ranks' points; the same on all ranks.
@@ -85,7 +88,7 @@ private:
   {
     constexpr std::int64_t wanted = 1 << 16;
     const auto step = std::size_t(std::max<std::int64_t>(1, this->Result.AllPoints / wanted));
-    return concatenated(this->Ranks.allGather(samplePoints(this->Input.Points, step)));
+    return concatenated(this->Ranks.allGather(sampleEvery(this->Input.Points, double(step))));
   }
 
   /// Divides space among the ranks, and sends each rank the points of its partitions.
@@ -129,7 +132,8 @@ private:
     {
       return false;
     }
-    InitialMesh3 mesh(initial, artificial, initial.Points.size());
+    BoundaryCells<3> mesh =
+      makeInitialMesh(*this->Tiling, initial, artificial, initial.Points.size());
     constexpr double most = 3; // fewer if there are few partitions to meet
     if (!isChosen && !partitionsPay(mesh, std::min(most, (1 + this->Tiling->size()) / 2.0)))
     {
@@ -142,7 +146,7 @@ private:
     std::sort(ids.begin(), ids.end());
     this->InitialIds = std::move(ids);
     const PartitionOrder order(initial.areUsed(), mesh);
-    const RankWork3 work{ *this->Tiling, order, this->Options, this->Threads };
+    const RankWork3 work{ *this->Tiling, order, artificial, this->Options, this->Threads };
     RankRun3 run(this->Ranks, work, buckets, this->firstOwn());
     run.Statistics = this->Figures;
     run.run(sendInitialMesh(mesh, order));
@@ -150,23 +154,8 @@ private:
     this->Inside = std::move(run.Inside);
     this->Kept = std::move(run.Kept);
     this->Duplicates = std::move(run.Duplicates);
-    this->repairHullOnFirst(run.HullVertices, artificial);
     this->Result.Statistics.Partitions = this->Tiling->size();
     return this->hasCells();
-  }
-
-  /// Gathers the vertices at the hull on the first rank, which repairs it and keeps the resulting
-  /// tetrahedra.
-  void repairHullOnFirst(const std::vector<Vertex3>& own, const std::vector<Vertex3>& artificial)
-  {
-    std::vector<Vertex3> vertices = gatherList(this->Ranks, own);
-    if (this->Ranks.isFirst())
-    {
-      repairHull(std::move(vertices), artificial,
-        [this](const std::array<Vertex3, 4>& v) {
-          this->Kept.push_back({ v[0].Id, v[1].Id, v[2].Id, v[3].Id });
-        });
-    }
   }
 
   /// Returns false, and discards the results, if all ranks together have no tetrahedra. Then the
@@ -313,7 +302,7 @@ private:
     mine.Ids = mine.cellSize() == 3
       ? orderTriangles(this->Inside.back())
       : orderCells(std::move(this->Inside), mine.Owned.size() + mine.Ghosts.size(), this->Threads);
-    mine.divideBy(this->Input.Points.Factor);
+    mine.divideBy(this->Input.Points.factor());
   }
 
   Communicator& Ranks;

@@ -104,7 +104,7 @@ inline PointBuckets3 shareInitialPoints(Communicator& ranks, const Tiling3& tili
     if (points.Count > 0)
     {
       for (const std::size_t i : chooseInitialPoints(points.Points, points.Count,
-             std::max(InitialMesh3::PointsOfPartition, std::min(each, points.Count / share))))
+             std::max(InitialPointsOfPartition3, std::min(each, points.Count / share))))
       {
         initial.push_back({ points.Points[i], points.id(i), p });
       }

@@ -26,6 +26,7 @@ struct RankWork3
 {
   const Tiling3& Tiling;       ///< each rank owns one of its groups of partitions
   const PartitionOrder& Order; ///< computed by each rank from the same initial mesh
+  const std::vector<Vertex3>& Artificial;
   const TetrahedralizationOptions& Options;
   int Threads;
 
@@ -73,20 +74,28 @@ public:
     const double seconds = this->runThreads(parts, [this](Cells& cells) { this->work(cells); });
     this->Statistics.WaitSeconds =
       std::max(0.0, seconds - this->Statistics.ComputeSeconds / this->Work.Threads);
+    std::vector<Vertex3> hull;
+    for (const Cells& cells : parts)
+    {
+      hull.insert(hull.end(), cells.HullVertices.begin(), cells.HullVertices.end());
+    }
+    keepUnique(hull);
+    // The first rank has the tetrahedra at the hull (Lemma 3).
+    hull = gatherList(this->Ranks, hull);
+    if (this->Ranks.isFirst())
+    {
+      repairHull(std::move(hull), this->Work.Artificial, parts.front());
+    }
     for (Cells& cells : parts)
     {
       this->Inside.push_back(std::move(cells.Inside));
       this->Kept.insert(this->Kept.end(), cells.Kept.begin(), cells.Kept.end());
-      this->HullVertices.insert(
-        this->HullVertices.end(), cells.HullVertices.begin(), cells.HullVertices.end());
     }
-    keepUnique(this->HullVertices);
   }
 
   /// By thread: tetrahedra whose corners are all this rank's points, by indices of these.
   std::vector<std::vector<CellIds>> Inside;
   std::vector<IdCell<4>> Kept; ///< other tetrahedra that became final on this rank, by internal ids
-  std::vector<Vertex3> HullVertices; ///< true corners of tetrahedra with artificial corners
   std::vector<Duplicate> Duplicates; ///< with internal ids
   RankStatistics Statistics;
 

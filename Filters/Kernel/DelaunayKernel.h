@@ -78,7 +78,16 @@ public:
   template <typename Visit>
   void forEach(const Visit& visit) const
   {
-    for (Index t = 0; t < this->Mesh.end(); t += 8)
+    this->forEach(0, 1, visit);
+  }
+  /// Calls visit(triangle) for those in part number `part` of `parts`, so that threads can share
+  /// the work.
+  template <typename Visit>
+  void forEach(std::size_t part, std::size_t parts, const Visit& visit) const
+  {
+    const std::size_t count = this->triangleCount();
+    const Index end = triangle(count * (part + 1) / parts);
+    for (Index t = triangle(count * part / parts); t < end; t += 8)
     {
       visit(t);
     }

@@ -4,6 +4,7 @@
 #include "Files/IOError.h"
 #include "OutOfCore/OutOfCoreMessages.h"
 #include "OutOfCore/PiecePlan.h"
+#include "OutOfCore/PiecePlan3.h"
 #include "OutOfCore/SpilledPoints.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Stopwatch.h"
@@ -16,37 +17,79 @@
 
 #include <algorithm>
 #include <cstring>
+#include <type_traits>
 #include <utility>
 
 namespace tipp
 {
 
-InputSurvey surveyPart(PointStream& points, std::int64_t total, const PassOptions& options)
+namespace
 {
-  InputSurvey survey;
-  StreamSampler<Point2> sampler(options.SamplePoints, total);
-  CollinearityTest line;
+
+/// Gives the points of blocks as views; coordinates are not scaled.
+template <int D>
+class BlockPoints
+{
+public:
+  explicit BlockPoints(const std::vector<std::string>& columns)
+    : Elevation(findElevation(columns))
+  {
+  }
+
+  /// The view is valid until the next call.
+  PointsViewOf<D> of(const PointBlock& block)
+  {
+    if constexpr (D == 2)
+    {
+      return { block.XY.data(), block.size(), 2 };
+    }
+    else
+    {
+      const std::vector<double>& z = block.Columns[this->Elevation];
+      this->Positions.resize(block.size());
+      for (std::size_t i = 0; i < z.size(); ++i)
+      {
+        this->Positions[i] = { block.XY[2 * i], block.XY[2 * i + 1], z[i] };
+      }
+      return PointsViewOf<D>(this->Positions);
+    }
+  }
+
+private:
+  const std::size_t Elevation;
+  std::vector<Point<D>> Positions; ///< in space
+};
+
+} // namespace
+
+template <int D>
+InputSurveyOf<D> surveyPart(PointStream& points, std::int64_t total, const PassOptions& options)
+{
+  InputSurveyOf<D> survey;
+  StreamSampler<Point<D>> sampler(options.SamplePoints, total);
+  DimensionTest<D> dimension;
   const std::size_t elevation = findElevation(points.columns());
-  points.needColumns(false);
+  BlockPoints<D> blocks(points.columns());
+  points.needColumns(D == 3);
   forEachBlock(points, options.BlockPoints,
     [&](PointBlock& block)
     {
-      const PointsView view(block.XY.data(), block.size(), 2);
-      const PointSurvey part = surveyPoints(view, options.Threads);
+      const PointsViewOf<D> view = blocks.of(block);
+      const PointSurveyOf<D> part = surveyPoints(view, options.Threads);
       survey.Bounds.extend(part.Bounds);
       survey.Rejected += std::int64_t(part.Rejected.size());
       survey.WithoutElevation +=
-        elevation < block.Columns.size() ? countMissing(block.Columns[elevation]) : 0;
+        D == 2 && elevation < block.Columns.size() ? countMissing(block.Columns[elevation]) : 0;
       sampler.add(block.First, view);
-      for (std::size_t i = 0; survey.Collinear && i < view.size(); ++i)
+      for (std::size_t i = 0; !dimension.isFull() && i < view.size(); ++i)
       {
-        survey.Collinear = line.add(view[i]);
+        dimension.add(view[i]);
       }
       survey.Points += std::int64_t(block.size());
       options.Progress(survey.Points);
     });
   points.needColumns(true);
-  survey.Line = line.line();
+  survey.Simplex = dimension.simplex();
   survey.Sample = sampler.take();
   return survey;
 }
@@ -59,23 +102,22 @@ void throwChanged()
 template <typename Archive>
 void serialize(Archive& archive, SpilledPart& part)
 {
-  archive(part.Points, part.Rows, part.InPieces);
+  archive(part.Points, part.Rows, part.InPieces, part.Extremes);
 }
 
 namespace
 {
 
-/// Returns the InputSurvey::Factor that is exact for all points of a part; 1 if there is none.
+/// Returns the InputSurveyOf::Factor that is exact for all points of a part; 1 if there is none.
 /// Reads the part. `bounds`: of all points, not scaled. Throws IOError.
-double factorOfPart(PointStream& points, std::size_t blockPoints, const Box2& bounds)
+template <int D>
+double factorOfPart(PointStream& points, std::size_t blockPoints, const Box<D>& bounds)
 {
-  double factor = withModerateMagnitude(PointsView(), bounds).factor();
+  double factor = withModerateMagnitude(PointsViewOf<D>(), bounds).factor();
+  BlockPoints<D> blocks(points.columns());
   forEachBlock(points, blockPoints,
     [&](PointBlock& block)
-    {
-      const PointsView view(block.XY.data(), block.size(), 2);
-      factor = factor == 1 ? 1 : withModerateMagnitude(view, bounds).factor();
-    });
+    { factor = factor == 1 ? 1 : withModerateMagnitude(blocks.of(block), bounds).factor(); });
   return factor;
 }
 
@@ -116,56 +158,72 @@ std::unique_ptr<PointStream> openPart(
   return nullptr;
 }
 
-/// Finds the pieces of a block's points, and the indices of initial points within their pieces.
+///@{
+/// Finds the piece of each point; PartitionFinder::None if it is not finite.
+void findPieces(
+  const PartitionFinder& finder, const Point2* points, std::size_t count, std::uint32_t* pieces)
+{
+  finder.locate(points, count, pieces);
+}
+void findPieces(
+  const Tiling3& tiling, const Point3* points, std::size_t count, std::uint32_t* pieces)
+{
+  std::transform(points, points + count, pieces,
+    [&tiling](const Point3& p)
+    { return isFinite(p) ? std::uint32_t(tiling.locate(p)) : PartitionFinder::None; });
+}
+///@}
+
+/// Finds the pieces of a block's points, the indices of initial points within their pieces and, in
+/// space, the extreme points of pieces.
+template <typename Plan>
 class Labelling
 {
 public:
-  Labelling(const PiecePlan& plan, double factor, int threads)
-    : Plan(plan)
+  static constexpr int D = Plan::Dimensions;
+
+  Labelling(const Plan& plan, double factor, int threads)
+    : Divided(plan)
     , Pieces(plan.Pieces)
     , Factor(factor)
     , Threads(threads)
     , Counts(std::size_t(plan.pieces()), 0)
+    , Extremes(D == 3 ? std::size_t(plan.pieces()) : 0)
   {
   }
 
-  void label(const PointBlock& block)
+  /// `first`: the id of the first point.
+  void label(std::int64_t first, const PointsViewOf<D>& block)
   {
-    const std::size_t count = block.size();
-    this->Labels.resize(count);
+    const PointsViewOf<D> points = block.scaled(this->Factor);
+    this->Labels.resize(points.size());
     constexpr std::int64_t length = 4096;
-    forChunks(std::int64_t(count), length, this->Threads, {},
+    forChunks(std::int64_t(points.size()), length, this->Threads, {},
       [&](std::int64_t begin, std::int64_t end, int)
-      { this->labelRange(block, std::size_t(begin), std::size_t(end)); });
-    this->countPoints(block.First);
+      { this->labelRange(points, std::size_t(begin), std::size_t(end)); });
+    this->countPoints(first, points);
   }
 
   std::vector<std::int32_t> Labels;   ///< by point of the block: its piece; -1: none
   std::vector<std::int64_t> InPieces; ///< see SpilledPart
 
+  std::vector<ExtremePoints> takeExtremes() { return std::move(this->Extremes); }
+
 private:
-  void labelRange(const PointBlock& block, std::size_t begin, std::size_t end)
+  void labelRange(const PointsViewOf<D>& points, std::size_t begin, std::size_t end)
   {
-    constexpr std::size_t group = 64;
-    Point2 scaled[group];
-    std::uint32_t pieces[group];
-    for (; begin < end; begin += group)
-    {
-      const std::size_t size = std::min(group, end - begin);
-      for (std::size_t i = 0; i < size; ++i)
+    points.forBlocks(begin, end,
+      [this](std::size_t first, const Point<D>* block, std::size_t count)
       {
-        scaled[i] = { block.XY[2 * (begin + i)] * this->Factor,
-          block.XY[2 * (begin + i) + 1] * this->Factor };
-      }
-      this->Pieces.locate(scaled, size, pieces);
-      static_assert(std::int32_t(PartitionFinder::None) == -1, "the label of no piece");
-      std::copy_n(pieces, size, this->Labels.begin() + std::ptrdiff_t(begin));
-    }
+        static_assert(std::int32_t(PartitionFinder::None) == -1, "the label of no piece");
+        findPieces(this->Pieces, block, count,
+          reinterpret_cast<std::uint32_t*>(this->Labels.data() + first));
+      });
   }
 
-  void countPoints(std::int64_t first)
+  void countPoints(std::int64_t first, const PointsViewOf<D>& points)
   {
-    const std::vector<InitialPoint>& initial = this->Plan.Initial;
+    const auto& initial = this->Divided.Initial;
     while (this->NextInitial < initial.size() && initial[this->NextInitial].Id < first)
     {
       ++this->NextInitial; // initial points of an earlier part
@@ -176,7 +234,7 @@ private:
       if (this->NextInitial < initial.size() &&
         initial[this->NextInitial].Id == first + std::int64_t(i))
       {
-        if (piece != this->Plan.PieceOf[std::size_t(initial[this->NextInitial].Partition)])
+        if (piece != this->Divided.pieceOf(initial[this->NextInitial]))
         {
           throwChanged();
         }
@@ -185,21 +243,25 @@ private:
       }
       if (piece >= 0)
       {
+        if constexpr (D == 3)
+        {
+          this->Extremes[std::size_t(piece)].add(this->Counts[std::size_t(piece)], points[i]);
+        }
         ++this->Counts[std::size_t(piece)];
       }
     }
   }
 
-  const PiecePlan& Plan;
-  const PartitionFinder Pieces;
+  const Plan& Divided;
+  const std::conditional_t<D == 2, PartitionFinder, const Tiling3&> Pieces;
   const double Factor;
   const int Threads;
   std::vector<std::int64_t> Counts;
+  std::vector<ExtremePoints> Extremes;
   std::size_t NextInitial = 0;
 };
 
-} // namespace
-
+/// Writes the row of point number i of the block to `to`, in the order of PointRowLayout.
 void writeRow(const PointBlock& block, std::size_t i, char* to)
 {
   std::memcpy(to, &block.XY[2 * i], 16);
@@ -213,17 +275,21 @@ void writeRow(const PointBlock& block, std::size_t i, char* to)
   std::memcpy(to, &id, 8);
 }
 
-SpilledPart spillPart(PointStream& points, double factor, const PiecePlan& plan,
-  const std::string& file, int part, const PassOptions& options)
+} // namespace
+
+template <typename Plan>
+SpilledPart spillPart(PointStream& points, double factor, const Plan& plan, const std::string& file,
+  int part, const PassOptions& options)
 {
   Spill spill(file, part, std::size_t(plan.pieces()), 8 * (3 + points.columns().size()));
   spill.protect();
-  Labelling labelling(plan, factor, options.Threads);
+  Labelling<Plan> labelling(plan, factor, options.Threads);
+  BlockPoints<Plan::Dimensions> blocks(points.columns());
   SpilledPart spilled;
   forEachBlock(points, options.BlockPoints,
     [&](PointBlock& block)
     {
-      labelling.label(block);
+      labelling.label(block.First, blocks.of(block));
       spill.add(
         block.size(), options.Threads, [&](std::size_t i) { return labelling.Labels[i]; },
         [&](std::size_t i, char* to) { writeRow(block, i, to); });
@@ -232,13 +298,19 @@ SpilledPart spillPart(PointStream& points, double factor, const PiecePlan& plan,
     });
   spilled.Rows = spill.close();
   spilled.InPieces = std::move(labelling.InPieces);
+  spilled.Extremes = labelling.takeExtremes();
   return spilled;
 }
 
+template <typename Plan>
 void placeInitialPoints(
-  const std::vector<SpilledPart>& parts, const InputSurvey& survey, PiecePlan& plan)
+  const std::vector<SpilledPart>& parts, const InputSurveyOf<Plan::Dimensions>& survey, Plan& plan)
 {
   std::int64_t seen = 0;
+  if constexpr (Plan::Dimensions == 3)
+  {
+    plan.Extremes.assign(std::size_t(plan.pieces()), {});
+  }
   // By piece: the points in earlier parts.
   std::vector<std::int64_t> before(std::size_t(plan.pieces()), 0);
   auto next = plan.Initial.begin();
@@ -247,28 +319,37 @@ void placeInitialPoints(
     seen += part.Points;
     for (std::size_t i = 0; i < part.InPieces.size() && next != plan.Initial.end(); ++i)
     {
-      const std::int32_t piece = plan.PieceOf[std::size_t(next->Partition)];
+      const PartitionIndex piece = plan.pieceOf(*next);
       next->InPieces = before.at(std::size_t(piece)) + part.InPieces[i];
       ++next;
     }
     for (std::size_t piece = 0; piece < before.size(); ++piece)
     {
+      if constexpr (Plan::Dimensions == 3)
+      {
+        plan.Extremes[piece].add(part.Extremes.at(piece), before[piece]);
+      }
       before[piece] += part.Rows.Counts.at(piece);
     }
   }
   const std::vector<std::int64_t> starts = startsOf(before);
-  if (seen != survey.Points || starts.back() != survey.Points - survey.Rejected ||
-    next != plan.Initial.end())
+  if (seen != survey.Points || starts.back() != survey.finite() || next != plan.Initial.end())
   {
     throwChanged();
   }
-  for (InitialPoint& p : plan.Initial)
+  for (auto& p : plan.Initial)
   {
-    p.InPieces += starts[std::size_t(plan.PieceOf[std::size_t(p.Partition)])];
+    p.InPieces += starts[std::size_t(plan.pieceOf(p))];
+  }
+  if constexpr (Plan::Dimensions == 3)
+  {
+    plan.encloseExtremes(starts);
   }
 }
 
-InputPasses::InputPasses(PointStream& points, Communicator* ranks, const PassOptions& options)
+template <typename Plan>
+InputPassesOf<Plan>::InputPassesOf(
+  PointStream& points, Communicator* ranks, const PassOptions& options)
   : Points(points)
   , Ranks(ranks)
   , Options{ options.BlockPoints, options.SamplePoints, options.Threads,
@@ -283,7 +364,8 @@ InputPasses::InputPasses(PointStream& points, Communicator* ranks, const PassOpt
 }
 
 /// Stores the messages of other ranks, which answer while this one works.
-void InputPasses::poll()
+template <typename Plan>
+void InputPassesOf<Plan>::poll()
 {
   Message message;
   while (this->Ranks && this->Ranks->poll(message))
@@ -292,7 +374,8 @@ void InputPasses::poll()
   }
 }
 
-Bytes InputPasses::answerOf(int rank)
+template <typename Plan>
+Bytes InputPassesOf<Plan>::answerOf(int rank)
 {
   constexpr double moment = 0.1;
   Stopwatch sinceProgress;
@@ -319,8 +402,9 @@ Bytes InputPasses::answerOf(int rank)
 /// Returns one result per part. Each other rank gets a message, whose content saveOrder() saves,
 /// and answers. If it has no result, or if there are no ranks, work(part) computes it here with the
 /// stream limited to the part.
+template <typename Plan>
 template <typename Result, typename SaveOrder, typename Work>
-std::vector<Result> InputPasses::share(
+std::vector<Result> InputPassesOf<Plan>::share(
   MessageKind kind, const SaveOrder& saveOrder, const Work& work)
 {
   for (int to = 1; to < this->Parts; ++to)
@@ -344,9 +428,11 @@ std::vector<Result> InputPasses::share(
   return results;
 }
 
-InputSurvey InputPasses::survey()
+template <typename Plan>
+typename InputPassesOf<Plan>::Survey InputPassesOf<Plan>::survey()
 {
-  std::vector<InputSurvey> parts = this->share<InputSurvey>(
+  constexpr int D = Plan::Dimensions;
+  std::vector<Survey> parts = this->share<Survey>(
     SurveyMessage,
     [this](SaveArchive& order)
     {
@@ -354,21 +440,23 @@ InputSurvey InputPasses::survey()
         std::uint64_t(this->Options.SamplePoints));
     },
     [this](int)
-    { return surveyPart(this->Points, this->Parts > 1 ? this->Total : -1, this->Options); });
-  InputSurvey survey = joinSurveys(parts);
-  if (survey.Points > survey.Rejected &&
-    withModerateMagnitude(PointsView(), survey.Bounds).factor() != 1)
+    { return surveyPart<D>(this->Points, this->Parts > 1 ? this->Total : -1, this->Options); });
+  Survey survey = joinSurveys(parts);
+  survey.LeftOut = this->Points.leftOut();
+  survey.ThinnedOut = this->Points.thinnedOut();
+  if (withModerateMagnitude(PointsViewOf<D>(), survey.Bounds).factor() != 1)
   {
     const std::vector<double> factors = this->share<double>(
       FactorMessage, [&](SaveArchive& order) { order(survey.Bounds); },
-      [&](int) { return factorOfPart(this->Points, this->Options.BlockPoints, survey.Bounds); });
+      [&](int) { return factorOfPart<D>(this->Points, this->Options.BlockPoints, survey.Bounds); });
     applyFactor(survey, std::count(factors.begin(), factors.end(), 1.0) > 0 ? 1 : factors[0]);
   }
   return survey;
 }
 
-std::unique_ptr<SpilledPoints> InputPasses::spill(
-  const InputSurvey& survey, PiecePlan& plan, const std::string& file)
+template <typename Plan>
+std::unique_ptr<SpilledPoints> InputPassesOf<Plan>::spill(
+  const Survey& survey, Plan& plan, const std::string& file)
 {
   const std::vector<SpilledPart> parts = this->share<SpilledPart>(
     SpillMessage,
@@ -386,9 +474,11 @@ std::unique_ptr<SpilledPoints> InputPasses::spill(
   return std::make_unique<SpilledPoints>(file, 3 + this->Points.columns().size(), rows);
 }
 
+template <typename Plan>
 Message helpWithInput(Communicator& ranks, const OpenPoints& open, PassOptions options,
   const std::function<Message()>& next)
 {
+  constexpr int D = Plan::Dimensions;
   std::unique_ptr<PointStream> points;
   Message message = next();
   for (; message.Kind == SurveyMessage || message.Kind == FactorMessage ||
@@ -403,22 +493,41 @@ Message helpWithInput(Communicator& ranks, const OpenPoints& open, PassOptions o
     Bytes answer; // empty: the first rank must read the part
     if (points && message.Kind == SurveyMessage)
     {
-      answer = packed(surveyPart(*points, points->divisible(), options));
+      answer = packed(surveyPart<D>(*points, points->divisible(), options));
     }
     else if (points && message.Kind == FactorMessage)
     {
-      answer = packed(factorOfPart(*points, options.BlockPoints, order.get<Box2>()));
+      answer = packed(factorOfPart<D>(*points, options.BlockPoints, order.get<Box<D>>()));
     }
     else if (points)
     {
       std::string file;
       double factor = 1;
       order(file, factor);
-      answer = packed(spillPart(*points, factor, PiecePlan(order), file, ranks.rank(), options));
+      answer = packed(spillPart(*points, factor, Plan(order), file, ranks.rank(), options));
     }
     ranks.post(0, PartMessage, std::move(answer));
   }
   return message;
 }
+
+template InputSurveyOf<2> surveyPart(
+  PointStream& points, std::int64_t total, const PassOptions& options);
+template SpilledPart spillPart(PointStream& points, double factor, const PiecePlan& plan,
+  const std::string& file, int part, const PassOptions& options);
+template void placeInitialPoints(
+  const std::vector<SpilledPart>& parts, const InputSurveyOf<2>& survey, PiecePlan& plan);
+template class InputPassesOf<PiecePlan>;
+template Message helpWithInput<PiecePlan>(Communicator& ranks, const OpenPoints& open,
+  PassOptions options, const std::function<Message()>& next);
+template InputSurveyOf<3> surveyPart(
+  PointStream& points, std::int64_t total, const PassOptions& options);
+template SpilledPart spillPart(PointStream& points, double factor, const PiecePlan3& plan,
+  const std::string& file, int part, const PassOptions& options);
+template void placeInitialPoints(
+  const std::vector<SpilledPart>& parts, const InputSurveyOf<3>& survey, PiecePlan3& plan);
+template class InputPassesOf<PiecePlan3>;
+template Message helpWithInput<PiecePlan3>(Communicator& ranks, const OpenPoints& open,
+  PassOptions options, const std::function<Message()>& next);
 
 } // namespace tipp

@@ -4,8 +4,11 @@
 
 #include "Files/OutputFile.h"
 #include "OutOfCore/FinishPieces.h"
+#include "OutOfCore/InputPasses.h"
+#include "OutOfCore/OutOfCoreMessages.h"
 #include "OutOfCore/PiecePlan.h"
 #include "OutOfCore/PieceResult.h"
+#include "OutOfCore/RunOnRanks.h"
 #include "OutOfCore/RunRecord.h"
 #include "OutOfCore/ScratchFiles.h"
 #include "Parallel/ParallelFor.h"
@@ -16,6 +19,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,7 +28,8 @@ namespace tipp
 {
 
 /// The base of runs out of core in the plane and in space.
-template <typename RunOptions, typename RunStatistics>
+/// `SetupType` has the data that all ranks need to work on pieces.
+template <typename SetupType, typename RunOptions, typename RunStatistics>
 class OutOfCoreRun
 {
 protected:
@@ -44,8 +49,10 @@ protected:
     , Pending(PendingFolder::lasting(path, &replaceableMesh))
     , Scratch(this->Pending, options.Scratch)
     , Record(path, identity, this->Pending, this->Scratch)
+    , Setup(options)
   {
     this->Statistics.Threads = this->Threads;
+    this->Setup.Results = this->Scratch.results();
   }
 
   /// Does the work and returns the statistics, also if the user stops the run.
@@ -114,6 +121,62 @@ protected:
     this->Statistics.Phases.push_back({ name, this->Watch.restart() });
   }
 
+  /// Throws IOError on each rank that does not see the folders of the run.
+  void requireSharedFolders()
+  {
+    if (this->Ranks)
+    {
+      requireSharedFolder(*this->Ranks, this->Pending.workPath());
+      requireSharedFolder(*this->Ranks, this->Scratch.folder());
+    }
+  }
+
+  /// Reads all points, and sets Setup.Survey.
+  void survey(const InputMemory& memory)
+  {
+    this->Setup.Survey =
+      this->passes(memory, [this](std::int64_t) { this->require(this->proceed(0)); }).survey();
+  }
+
+  /// Spills all points by the plan, which takes up to the fraction `end` of the run.
+  void spill(const InputMemory& memory, double end)
+  {
+    const double all = double(this->Setup.Survey.Points);
+    this->Setup.Spilled =
+      this
+        ->passes(memory,
+          [&](std::int64_t done) { this->require(this->proceed(end * double(done) / all)); })
+        .spill(this->Setup.Survey, *this->Setup.Plan, this->Scratch.points());
+    this->Statistics.SpilledBytes = this->Setup.Spilled->bytes();
+  }
+
+  /// Records that the points are spilled. From now on the run can be resumed.
+  void recordSpilled()
+  {
+    this->Record.save(
+      RunRecord::Stage::Begun, [this](SaveArchive& archive) { this->Setup.save(archive); });
+    this->endPhase("spill");
+  }
+
+  /// Triangulates on all ranks the pieces that are not done: the part [from, from + length] of the
+  /// run.
+  template <typename Memory>
+  void makePieces(const Memory& memory, double from, double length)
+  {
+    const auto work = this->Setup.work();
+    const std::vector<char> isDone =
+      verifyResults(work, this->Threads, this->reportPart(from, 0), this->Options.Warn);
+    if (this->Ranks)
+    {
+      this->shareSetup(isDone);
+    }
+    Communicator alone(nullptr);
+    const std::function<bool(double)> progress = [&](double done)
+    { return this->proceed(from + length * done); };
+    triangulatePieces(
+      work, memory, this->Threads, progress, this->Ranks ? *this->Ranks : alone, isDone);
+  }
+
   /// Calls `loadPlan` if the points of an earlier run are spilled. Returns false if there is
   /// nothing to resume.
   bool resume(const RunRecord::Load& loadPlan)
@@ -169,10 +232,30 @@ protected:
   PendingFolder Pending;
   ScratchFolder Scratch;
   RunRecord Record;
+  SetupType Setup;
   RunStatistics Statistics;
   std::vector<FinishedPiece> Finished;
 
 private:
+  auto passes(const InputMemory& memory, const std::function<void(std::int64_t)>& progress) const
+  {
+    return InputPassesOf<typename SetupType::PlanType>(this->Input, this->Ranks,
+      { memory.BlockPoints, memory.SamplePoints, this->Threads, progress });
+  }
+
+  /// Sends the other ranks, which wait in help(), the data that they need to work on pieces.
+  void shareSetup(const std::vector<char>& isDone)
+  {
+    for (int to = 1; to < this->Ranks->size(); ++to)
+    {
+      SaveArchive archive;
+      archive(this->Scratch.points(), this->Setup.Mesh.Path, this->Setup.Results, isDone);
+      this->Setup.save(archive);
+      this->Ranks->post(to, SetUpMessage, archive.take());
+      this->Ranks->flush(); // send one copy at a time, to save memory
+    }
+  }
+
   Stopwatch Watch;
 };
 

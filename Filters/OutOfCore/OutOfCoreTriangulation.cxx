@@ -7,12 +7,11 @@
 #include "Files/TextFile.h"
 #include "OutOfCore/DescribeMesh.h"
 #include "OutOfCore/FinishPieces.h"
-#include "OutOfCore/InputPasses.h"
 #include "OutOfCore/LoadedPiece.h"
-#include "OutOfCore/OutOfCoreMessages.h"
 #include "OutOfCore/OutOfCoreOptions.h"
 #include "OutOfCore/OutOfCoreRun.h"
 #include "OutOfCore/PieceRun.h"
+#include "OutOfCore/RunOnRanks.h"
 #include "OutOfCore/RunRecord.h"
 #include "OutOfCore/RunSetup.h"
 #include "OutOfCore/ScratchFiles.h"
@@ -22,13 +21,7 @@
 #include "Points/Longitudes.h"
 #include "Triangulation/InputSurvey.h"
 
-#include <filesystem>
-#include <fstream>
 #include <memory>
-#include <new>
-#include <optional>
-#include <random>
-#include <stdexcept>
 
 namespace tipp
 {
@@ -45,18 +38,11 @@ void serialize(Archive& archive, OutOfCoreStatistics& statistics)
 namespace
 {
 
-std::string firstLine(const std::string& path)
-{
-  std::string line;
-  std::getline(std::ifstream(path), line);
-  return line;
-}
-
 /// Returns a text that is equal for runs that make the same mesh from the same input with the same
 /// options.
 std::string identityOf(const PointStream& input, const OutOfCoreOptions& options)
 {
-  return "TIPP out of core 15\n" + input.identity() + std::to_string(options.Columns) + "x" +
+  return "TIPP out of core 16\n" + input.identity() + std::to_string(options.Columns) + "x" +
     std::to_string(options.Rows) + " " + std::to_string(options.PiecePoints) + " " +
     std::to_string(options.PartitionPoints) + (options.MapDuplicates ? " mapped" : "") +
     (options.Neighbors ? " linked" : "") + (options.MarkConstraints ? " marked" : "") +
@@ -68,20 +54,18 @@ std::string identityOf(const PointStream& input, const OutOfCoreOptions& options
     "\n" + (options.Consumer ? options.Consumer->identity() : "") + "\n" + options.Scratch;
 }
 
-class TriangulationRun : OutOfCoreRun<OutOfCoreOptions, OutOfCoreStatistics>
+class TriangulationRun : OutOfCoreRun<RunSetup, OutOfCoreOptions, OutOfCoreStatistics>
 {
 public:
   TriangulationRun(PointStream& points, const std::string& path, const OutOfCoreOptions& options,
     Communicator* ranks)
     : OutOfCoreRun(points, path, options, identityOf(points, options), ranks)
-    , Setup(options)
   {
     if (!options.CountOnly)
     {
       requireFolderName(path);
     }
     this->Setup.Mesh.Path = options.CountOnly ? "" : this->Pending.temporaryPath();
-    this->Setup.Results = this->Scratch.results();
   }
 
   OutOfCoreStatistics run()
@@ -89,15 +73,13 @@ public:
     return this->perform(
       [this]
       {
-        if (this->Ranks)
-        {
-          requireSharedFolder(*this->Ranks, this->Pending.workPath());
-          requireSharedFolder(*this->Ranks, this->Scratch.folder());
-        }
+        this->requireSharedFolders();
         if (!this->resume([this](LoadArchive& archive) { this->load(archive); }))
         {
           this->survey();
-          this->spill();
+          this->spill(*this->Memory, 0.2);
+          this->Setup.requireMemory(this->Path, this->Options.MemoryLimit);
+          this->recordSpilled();
         }
         if (!this->Record.isWhole())
         {
@@ -115,8 +97,7 @@ private:
   void load(LoadArchive& archive)
   {
     this->Setup.load(archive, this->Scratch.points());
-    this->Memory = std::make_unique<MemoryPlan>(
-      this->Options, this->Setup.Rows.Words, this->Setup.Constraints != nullptr);
+    this->Memory = std::make_unique<MemoryPlan>(this->Setup.memory(this->Options));
     this->describePlan();
   }
 
@@ -133,11 +114,7 @@ private:
       segments->begin(this->Scratch.points() + ".constraints", this->Options.MemoryLimit);
     }
     InputSurvey& survey = this->Setup.Survey;
-    survey = InputPasses(this->Input, this->Ranks,
-      this->passOptions(
-        [this](std::int64_t) {
-          this->require(this->proceed(0));
-        })).survey();
+    OutOfCoreRun::survey(*this->Memory);
     this->Setup.InputBounds =
       segments ? segments->inputBounds() : scaled(survey.Bounds, 1 / survey.Factor);
     this->Statistics.LeftOut = this->Input.leftOut();
@@ -189,11 +166,6 @@ private:
     }
   }
 
-  PassOptions passOptions(const std::function<void(std::int64_t)>& progress) const
-  {
-    return { this->Memory->BlockPoints, this->Memory->SamplePoints, this->Threads, progress };
-  }
-
   void describePlan()
   {
     this->Statistics.Points = this->Setup.Survey.Points;
@@ -218,61 +190,24 @@ private:
       points * (8 * this->Setup.Rows.Words + results + more) + others + this->Setup.takenBytes());
   }
 
-  void spill()
-  {
-    const InputSurvey& survey = this->Setup.Survey;
-    const auto progress = [&](std::int64_t done)
-    { this->require(this->proceed(0.2 * double(done) / double(survey.Points))); };
-    this->Setup.Spilled = InputPasses(this->Input, this->Ranks, this->passOptions(progress))
-                            .spill(survey, *this->Setup.Plan, this->Scratch.points());
-    this->Statistics.SpilledBytes = this->Setup.Spilled->bytes();
-    this->Setup.requireMemory(this->Path, this->Options.MemoryLimit);
-    this->Record.save(
-      RunRecord::Stage::Begun, [this](SaveArchive& archive) { this->Setup.save(archive); });
-    this->endPhase("spill");
-  }
-
   void triangulate()
   {
-    if (this->Setup.Survey.Collinear || this->Setup.Plan->IsAlone)
+    const bool isFlat = this->Setup.Survey.dimension() < 2;
+    if (isFlat || this->Setup.Plan->IsAlone)
     {
       const double all = double(this->Setup.Survey.Points);
       this->Finished = triangulateAlone(
-        this->Setup.work(), this->Setup.Survey.Collinear,
+        this->Setup.work(), isFlat,
         [&](std::int64_t done) { return this->proceed(0.2 + 0.7 * double(done) / all); },
         this->Statistics);
       this->require(!this->Finished.empty());
       this->endPhase("triangulate");
       return;
     }
-    const PieceWork work = this->Setup.work();
-    const std::vector<char> isDone =
-      verifyResults(work, this->Threads, this->reportPart(0.2, 0), this->Options.Warn);
-    if (this->Ranks)
-    {
-      this->shareSetup(isDone);
-    }
-    Communicator alone(nullptr);
-    const std::function<bool(double)> progress = [this](double done)
-    { return this->proceed(0.2 + 0.65 * done); };
-    triangulatePieces(
-      work, *this->Memory, this->Threads, progress, this->Ranks ? *this->Ranks : alone, isDone);
-    this->Finished =
-      finishPieces(work, this->Threads, this->reportPart(0.85, 0.05), this->Statistics);
+    this->makePieces(*this->Memory, 0.2, 0.65);
+    this->Finished = finishPieces(
+      this->Setup.work(), this->Threads, this->reportPart(0.85, 0.05), this->Statistics);
     this->endPhase("triangulate");
-  }
-
-  /// Sends the other ranks, which wait in help(), the data that they need to work on pieces.
-  void shareSetup(const std::vector<char>& isDone)
-  {
-    for (int to = 1; to < this->Ranks->size(); ++to)
-    {
-      SaveArchive archive;
-      archive(this->Scratch.points(), this->Setup.Mesh.Path, this->Setup.Results, isDone);
-      this->Setup.save(archive);
-      this->Ranks->post(to, SetUpMessage, archive.take());
-      this->Ranks->flush(); // send one copy at a time, to save memory
-    }
   }
 
   void endTaking()
@@ -310,99 +245,9 @@ private:
   }
 
   std::unique_ptr<MemoryPlan> Memory;
-  RunSetup Setup;
 };
 
-/// Reports progress on a rank other than the first while there are no pieces to triangulate.
-void report(const Communicator& ranks, const OutOfCoreOptions& options, double fraction)
-{
-  if (options.Progress && !options.Progress(fraction))
-  {
-    throw RankFailure(ranks.rank(), true, "The run was stopped.");
-  }
-}
-
-Message waitForOrder(Communicator& ranks, const OutOfCoreOptions& options, double fraction)
-{
-  constexpr double moment = 0.1;
-  Stopwatch sinceReport;
-  Message message;
-  while (!ranks.poll(message))
-  {
-    if (sinceReport.seconds() > moment)
-    {
-      sinceReport.restart();
-      report(ranks, options, fraction);
-    }
-    ranks.pause();
-  }
-  return message;
-}
-
-/// Works on a rank other than the first: helps with the input, and triangulates this rank's pieces.
-void help(Communicator& ranks, const OpenPoints& open, const OutOfCoreOptions& options)
-{
-  requireSharedFolder(ranks, "");
-  requireSharedFolder(ranks, "");
-  const int threads = threadCount(options.Threads);
-  const auto progress = [&](std::int64_t)
-  {
-    Message none; // no message comes; poll() throws if a rank has failed
-    ranks.poll(none);
-    report(ranks, options, 0);
-  };
-  RunSetup setup(options);
-  std::vector<char> isDone;
-  { // the message, which may be large, is freed before the pieces are triangulated
-    const Message message = helpWithInput(
-      ranks, open, { 0, 0, threads, progress }, [&] { return waitForOrder(ranks, options, 0); });
-    if (message.Kind == EndMessage)
-    {
-      return; // there are no pieces to triangulate
-    }
-    std::string points;
-    LoadArchive archive(message.Content);
-    archive(points, setup.Mesh.Path, setup.Results, isDone);
-    setup.load(archive, points);
-  }
-  setup.beginTaking();
-  const MemoryPlan memory(options, setup.Rows.Words, setup.Constraints != nullptr);
-  triangulatePieces(setup.work(), memory, threads, options.Progress, ranks, isDone);
-  while (waitForOrder(ranks, options, 1).Kind != EndMessage)
-  {
-    // A result of another rank, which this rank does not need.
-  }
-}
-
 } // namespace
-
-void requireSharedFolder(Communicator& ranks, const std::string& folder)
-{
-  const bool isFirst = ranks.rank() == 0;
-  std::optional<TemporaryFile> mark;
-  std::string path;
-  std::string expected;
-  if (isFirst)
-  {
-    path = folder + "/.ranks";
-    mark.emplace(path);
-    std::random_device random;
-    expected = std::to_string(random()) + " " + std::to_string(random());
-    std::ofstream(path) << expected << "\n";
-    if (firstLine(path) != expected)
-    {
-      throw IOError(path, "cannot be written.");
-    }
-  }
-  path = ranks.broadcast(path);
-  expected = ranks.broadcast(expected);
-  if (firstLine(path) != expected)
-  {
-    throw IOError(std::filesystem::path(path).parent_path().string(),
-      "does not exist on this rank, but all ranks use it; name folders that all ranks share.");
-  }
-  ranks.barrier(); // all ranks have read the file, so it can be removed
-}
 
 OutOfCoreStatistics triangulateOutOfCore(
   PointStream& points, const std::string& path, const OutOfCoreOptions& options)
@@ -413,50 +258,7 @@ OutOfCoreStatistics triangulateOutOfCore(
 OutOfCoreStatistics triangulateOutOfCoreOnRanks(Communicator& ranks, const OpenPoints& open,
   const std::string& path, const OutOfCoreOptions& options)
 {
-  OutOfCoreStatistics statistics;
-  const auto work = [&]
-  {
-    if (ranks.rank() > 0)
-    {
-      help(ranks, open, options);
-      return;
-    }
-    const std::unique_ptr<PointStream> points = open();
-    statistics =
-      TriangulationRun(*points, path, options, ranks.size() > 1 ? &ranks : nullptr).run();
-    if (statistics.Aborted)
-    {
-      throw RankFailure(0, true, "The run was stopped.");
-    }
-    for (int to = 1; to < ranks.size(); ++to)
-    {
-      ranks.post(to, EndMessage, Bytes());
-    }
-  };
-  try
-  {
-    ranks.together(
-      [&]
-      {
-        try
-        {
-          work();
-        }
-        catch (const std::bad_alloc&)
-        {
-          throw std::runtime_error("There is not enough memory; lower the memory limit.");
-        }
-      });
-  }
-  catch (const RankFailure& failure)
-  {
-    statistics.Aborted = failure.Aborted;
-    if (!failure.Aborted)
-    {
-      throw;
-    }
-  }
-  return statistics;
+  return runWithHelp<TriangulationRun, RunSetup>(ranks, open, path, options);
 }
 
 } // namespace tipp

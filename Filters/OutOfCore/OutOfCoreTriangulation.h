@@ -43,10 +43,6 @@ VTKTIPPFILTERS_EXPORT OutOfCoreStatistics triangulateOutOfCore(
 VTKTIPPFILTERS_EXPORT OutOfCoreStatistics triangulateOutOfCoreOnRanks(Communicator& ranks,
   const OpenPoints& open, const std::string& path, const OutOfCoreOptions& options);
 
-/// Checks that all ranks see a folder of the first rank, by means of a temporary file. Collective.
-/// Throws IOError on each rank that does not see it. Only the first rank's `folder` is used.
-VTKTIPPFILTERS_EXPORT void requireSharedFolder(Communicator& ranks, const std::string& folder);
-
 } // namespace tipp
 
 #endif

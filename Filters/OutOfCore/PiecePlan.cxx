@@ -5,7 +5,8 @@
 #include "OutOfCore/OutOfCoreOptions.h"
 #include "OutOfCore/ScratchFiles.h"
 #include "OutOfCore/SpilledPoints.h"
-#include "Triangulation/BoundaryTriangles.h"
+#include "Triangulation/BoundaryCells.h"
+#include "Triangulation/InitialMesh.h"
 #include "Triangulation/InputSurvey.h"
 #include "Triangulation/Tiling.h"
 
@@ -132,8 +133,8 @@ PiecePlan::PiecePlan(const InputSurvey& survey, const OutOfCoreOptions& options,
   const auto pays = [&](int pointsPerPartition)
   {
     this->chooseInitialPoints(survey, pointsPerPartition);
-    return partitionsPay(
-      triangulateVertices(this->Partitions, this->initialVertices(), threads), MostMetPartitions);
+    return partitionsPay(triangulateVertices<2>(this->Partitions, this->initialVertices(), threads),
+      MostMetPartitions);
   };
   // With more points the circumdisks shrink, but not those of points on a curve.
   this->HasLargeInterface = !pays(InitialPointsOfPartition) && !pays(4 * InitialPointsOfPartition);
@@ -256,7 +257,7 @@ PiecePlan::PiecePlan(LoadArchive& archive)
 
 PieceOrder::PieceOrder(const PiecePlan& plan, const SpilledPoints& points, int threads)
   : Boxes(regionsOf(plan, points))
-  , InitialMesh(triangulateVertices(this->Boxes, plan.initialVertices(), threads))
+  , InitialMesh(triangulateVertices<2>(this->Boxes, plan.initialVertices(), threads))
   , Partitions(this->Boxes.areUsed(), this->InitialMesh)
 {
   for (PartitionIndex piece = plan.pieces() - 1; piece >= 0; --piece)

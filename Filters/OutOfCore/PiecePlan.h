@@ -3,9 +3,10 @@
 #define tippPiecePlan_h
 
 #include "Engine/PartitionSchedule.h"
+#include "OutOfCore/InitialPoint.h"
 #include "OutOfCore/OutOfCoreOptions.h"
 #include "OutOfCore/SpilledPoints.h"
-#include "Triangulation/BoundaryTriangles.h"
+#include "Triangulation/BoundaryCells.h"
 #include "Triangulation/InputSurvey.h"
 #include "Triangulation/Tiling.h"
 #include "vtkTIPPFiltersModule.h"
@@ -56,20 +57,12 @@ struct VTKTIPPFILTERS_EXPORT MemoryPlan : InputMemory
   static std::uint64_t pieceBytes(std::int64_t points, std::size_t rowWords);
 };
 
-/// A point of the initial mesh.
-struct InitialPoint
-{
-  std::int64_t Id; ///< index in the stream
-  /// Multiplied by InputSurvey::Factor.
-  Point2 Position;
-  PartitionIndex Partition;
-  std::int64_t InPieces = -1; ///< index among all spilled points; -1: not known yet
-};
-
 /// The two levels of boxes. Pieces are spilled, loaded and written; each consists of partitions,
 /// which workers triangulate.
 struct VTKTIPPFILTERS_EXPORT PiecePlan
 {
+  static constexpr int Dimensions = 2;
+
   PiecePlan(const InputSurvey& survey, const OutOfCoreOptions& options, const MemoryPlan& memory,
     std::size_t rowWords, int threads);
   explicit PiecePlan(LoadArchive& archive);
@@ -94,6 +87,10 @@ struct VTKTIPPFILTERS_EXPORT PiecePlan
 
   /// See numberInMesh().
   std::size_t number(PartitionIndex piece) const { return numberInMesh(piece, this->pieces()); }
+  PartitionIndex pieceOf(const InitialPoint& p) const
+  {
+    return this->PieceOf[std::size_t(p.Partition)];
+  }
 
   /// Returns the vertices of the initial mesh. Their ids are valid once the initial points have
   /// InPieces.

@@ -40,6 +40,7 @@ struct PieceWorkOf
   const PointRowLayout& Rows;
   const PartitionedMesh& Mesh;
   std::string Results; ///< prefix of the paths of results
+  double Factor = 1;   ///< multiplies the points' coordinates to give the plan's
 
   std::string resultPath(PartitionIndex piece) const
   {
@@ -225,7 +226,6 @@ using StoredResult = StoredResultOf<3, VertexMessage>;
 /// The work on pieces of triangles. Pointers are not owned.
 struct PieceWork : PieceWorkOf<PiecePlan, StoredResult>
 {
-  double Factor = 1;                    ///< multiplies the points' coordinates to give the plan's
   TriangleConsumer* Consumer = nullptr; ///< null: triangles are written to the mesh
   double MaximumEdge = 0; ///< triangles with a longer edge are left out; 0: all are kept
   DuplicateRule Duplicates = DuplicateRule::First;

@@ -38,9 +38,7 @@ void RunSetup::load(LoadArchive& archive, const std::string& points)
     this->Constraints =
       std::make_unique<SpilledSegments>(points, *this->Plan, this->Survey.Factor, archive);
   }
-  this->Spilled =
-    std::make_unique<SpilledPoints>(points, this->Rows.Words, this->Plan->pieces(), archive);
-  this->describeMesh();
+  this->loadPoints(archive, points);
 }
 
 void RunSetup::describeColumns(

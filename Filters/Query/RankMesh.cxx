@@ -116,7 +116,7 @@ struct CellCopy
 };
 
 /// A piece of these cells. `owned` are the ids of its own points, ascending.
-MeshPart partOf(const std::vector<CellCopy>& cells, const Ids& owned)
+MeshPart partOfCells(const std::vector<CellCopy>& cells, const Ids& owned)
 {
   Ids points;
   for (const CellCopy& cell : cells)
@@ -368,7 +368,7 @@ std::int32_t RankMesh::addCellsAt(const Ids& points) const
     replies.push_back(copiesAt(this->InMemory[0], asked));
   }
   const std::vector<CellCopy> cells = concatenated(this->Ranks.allToAll(replies));
-  const std::int32_t piece = this->addPiece(partOf(cells, points));
+  const std::int32_t piece = this->addPiece(partOfCells(cells, points));
   for (const std::int64_t point : points)
   {
     this->Owners.emplace(point, piece);

@@ -6,7 +6,7 @@
 #include "Distributed/DistributedTriangulation.h"
 #include "Distributed3D/DistributedTetrahedralization.h"
 #include "OutOfCore/OutOfCoreOptions.h"
-#include "OutOfCore3D/OutOfCoreTetrahedralization.h"
+#include "OutOfCore/OutOfCoreTetrahedralization.h"
 #include "Triangulation/Triangulate.h"
 #include "Triangulation3D/Tetrahedralize.h"
 #include "vtkTIPPFiltersModule.h"

@@ -288,42 +288,4 @@ std::vector<BoundaryVertex> UniqueVertices::collect(const std::vector<VertexMess
   return vertices;
 }
 
-void repairHull(std::vector<BoundaryVertex> vertices, const std::vector<BoundaryVertex>& artificial,
-  FinalTriangleConsumer& final)
-{
-  keepUnique(vertices);
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-  {
-    // There may be many vertices, so their copies are freed as soon as possible.
-    DelaunayKernel kernel;
-    kernel.insert(positionsOf(vertices).data(), vertices.size());
-    kernel.forEach(
-      [&](DelaunayKernel::Index t)
-      {
-        if (kernel.isInfinite(t))
-        {
-          return;
-        }
-        const auto [u, v, w] = kernel.corners(t);
-        const Point2 a = kernel.point(u);
-        const Point2 b = kernel.point(v);
-        const Point2 c = kernel.point(w);
-        const Box2 bounds = Circumdisk(a, b, c).bounds();
-        const auto isInConflict = [&](const BoundaryVertex& z)
-        {
-          const Point2 p = z.Position;
-          return bounds.contains(p) && inCirclePerturbed(a, b, c, p);
-        };
-        if (std::any_of(artificial.begin(), artificial.end(), isInConflict))
-        {
-          triangles.push_back({ kernel.pointIndex(u), kernel.pointIndex(v), kernel.pointIndex(w) });
-        }
-      });
-  }
-  for (const auto& corners : triangles)
-  {
-    final.add({ vertices[corners[0]], vertices[corners[1]], vertices[corners[2]] });
-  }
-}
-
 } // namespace tipp

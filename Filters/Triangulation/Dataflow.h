@@ -6,9 +6,11 @@
 #include "Engine/Inbox.h"
 #include "Engine/PartitionSchedule.h"
 #include "Kernel/DelaunayKernel.h"
-#include "Triangulation/BoundaryTriangles.h"
+#include "Triangulation/BoundaryCells.h"
 #include "Triangulation/Duplicate.h"
+#include "Triangulation/Hull.h"
 #include "Triangulation/PointBuckets.h"
+#include "Triangulation/Regions.h"
 #include "Triangulation/Tiling.h"
 #include "Triangulation/TriangleSink.h"
 
@@ -153,13 +155,7 @@ private:
   IndexMap Known; ///< ids; a member to reuse its memory
 };
 
-/// Receives boundary triangles that have become final.
-class FinalTriangleConsumer
-{
-public:
-  virtual ~FinalTriangleConsumer() = default;
-  virtual void add(const BoundaryTriangle& triangle) = 0;
-};
+using FinalTriangleConsumer = FinalCellConsumer<2>;
 
 /// Collects final boundary triangles: triangles without artificial corners as they are, and of the
 /// others the true corners, which the hull repair needs.
@@ -192,12 +188,6 @@ struct FinalBoundary : public FinalTriangleConsumer
     other.HullVertices.clear();
   }
 };
-
-/// Removes the artificial points (Lemma 3): triangulates `vertices`, the true corners of triangles
-/// with artificial corners (repetitions allowed), and adds those triangles to `final` that are in
-/// conflict with an artificial point. They fill the space of the triangles with artificial corners.
-VTKTIPPFILTERS_EXPORT void repairHull(std::vector<BoundaryVertex> vertices,
-  const std::vector<BoundaryVertex>& artificial, FinalTriangleConsumer& final);
 
 /// Routes the boundary triangles of a partition, one partition after another.
 ///

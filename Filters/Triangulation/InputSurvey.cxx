@@ -3,37 +3,50 @@
 
 #include "Triangulation/PointsView.h"
 
-#include <algorithm>
-
 namespace tipp
 {
 
-void applyFactor(InputSurvey& survey, double factor)
+template <int D>
+void applyFactor(InputSurveyOf<D>& survey, double factor)
 {
   survey.Factor = factor;
   survey.Bounds = scaled(survey.Bounds, factor);
-  for (SampledPoint& p : survey.Sample)
+  for (SampledPointOf<Point<D>>& p : survey.Sample)
   {
-    p.Position = { p.Position.x * factor, p.Position.y * factor };
+    for (std::size_t axis = 0; axis < D; ++axis)
+    {
+      p.Position[axis] *= factor;
+    }
   }
 }
 
-InputSurvey joinSurveys(std::vector<InputSurvey>& parts)
+template <int D>
+InputSurveyOf<D> joinSurveys(std::vector<InputSurveyOf<D>>& parts)
 {
-  InputSurvey survey;
-  CollinearityTest line;
-  for (InputSurvey& part : parts)
+  InputSurveyOf<D> survey;
+  DimensionTest<D> dimension;
+  for (InputSurveyOf<D>& part : parts)
   {
     survey.Points += part.Points;
     survey.Rejected += part.Rejected;
     survey.WithoutElevation += part.WithoutElevation;
+    survey.LeftOut += part.LeftOut;
+    survey.ThinnedOut += part.ThinnedOut;
     survey.Bounds.extend(part.Bounds);
-    survey.Collinear = survey.Collinear && part.Collinear &&
-      std::all_of(part.Line.begin(), part.Line.end(), [&](Point2 p) { return line.add(p); });
+    for (const Point<D>& p : part.Simplex)
+    {
+      dimension.add(p);
+    }
     survey.Sample.insert(survey.Sample.end(), part.Sample.begin(), part.Sample.end());
-    std::vector<SampledPoint>().swap(part.Sample);
+    std::vector<SampledPointOf<Point<D>>>().swap(part.Sample);
   }
+  survey.Simplex = dimension.simplex();
   return survey;
 }
+
+template InputSurveyOf<2> joinSurveys(std::vector<InputSurveyOf<2>>& parts);
+template InputSurveyOf<3> joinSurveys(std::vector<InputSurveyOf<3>>& parts);
+template void applyFactor(InputSurveyOf<2>& survey, double factor);
+template void applyFactor(InputSurveyOf<3>& survey, double factor);
 
 } // namespace tipp

@@ -238,70 +238,9 @@ private:
   Buffer<Id> Memory;
 };
 
-/// The region of each partition: a box that contains its points, by default their bounding box. The
-/// lemmas require no more; smaller regions meet fewer triangles.
-class Regions
-{
-public:
-  /// The bounding boxes of the partitions' points. The tiling must outlive this object.
-  template <typename Id>
-  Regions(const Tiling& tiling, const PointBuckets<Id>& buckets, int threads)
-    : Tiles(tiling)
-    , Boxes(std::size_t(tiling.size()))
-    , Used(std::size_t(tiling.size()), 0)
-  {
-    parallelFor(tiling.size(), threads,
-      [&](std::int64_t i)
-      {
-        const auto p = static_cast<PartitionIndex>(i);
-        this->Boxes[std::size_t(i)] = extentOf(buckets.points(p), buckets.count(p)).Bounds;
-        this->Used[std::size_t(i)] = buckets.count(p) > 0;
-      });
-  }
-
-  /// Takes known boxes. `used` has one entry for each partition: 0 if it has no points.
-  Regions(const Tiling& tiling, std::vector<Box2> boxes, std::vector<char> used)
-    : Tiles(tiling)
-    , Boxes(std::move(boxes))
-    , Used(std::move(used))
-  {
-  }
-
-  /// The tiling's boxes.
-  Regions(const Tiling& tiling) // NOLINT(google-explicit-constructor)
-    : Regions(tiling, tiling.boxes(), std::vector<char>(std::size_t(tiling.size()), 1))
-  {
-  }
-
-  PartitionIndex size() const { return static_cast<PartitionIndex>(this->Boxes.size()); }
-  const Box2& operator[](PartitionIndex p) const { return this->Boxes[std::size_t(p)]; }
-
-  /// By partition: not 0 if it has points, and so a region.
-  const std::vector<char>& areUsed() const { return this->Used; }
-
-  /// Calls visit(partition) for every region that the closed disk meets.
-  template <typename Visit>
-  void visitMet(const Circumdisk& disk, Visit&& visit) const
-  {
-    this->Tiles.visitNear(disk.bounds(),
-      [&](PartitionIndex p)
-      {
-        if (this->Used[std::size_t(p)] && disk.meets((*this)[p]))
-        {
-          visit(p);
-        }
-      });
-  }
-
-private:
-  const Tiling& Tiles;
-  std::vector<Box2> Boxes;
-  std::vector<char> Used;
-};
-
 /// Sorts the finite points by partition, stably. Ids are indices into `points`.
 template <typename Id>
-PointBuckets<Id> bucketPoints(PointsView points, const Tiling& tiling, int threads)
+PointBuckets<Id> bucketPoints(const PointsView& points, const Tiling& tiling, int threads)
 {
   const std::size_t partitions = static_cast<std::size_t>(tiling.size());
   const PartitionFinder finder(tiling);
@@ -347,7 +286,8 @@ PointBuckets<Id> bucketPoints(PointsView points, const Tiling& tiling, int threa
 /// Puts all points into one bucket. The points are not copied if they are contiguous and all
 /// finite.
 template <typename Id>
-PointBuckets<Id> bucketTogether(PointsView points, const Box2& bounds, bool allFinite, int threads)
+PointBuckets<Id> bucketTogether(
+  const PointsView& points, const Box2& bounds, bool allFinite, int threads)
 {
   if (points.contiguous() && allFinite)
   {

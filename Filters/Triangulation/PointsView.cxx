@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Triangulation/PointsView.h"
 
+#include "Kernel/DelaunayKernel3.h"
 #include "Kernel/Pairs.h"
 #include "Parallel/ParallelFor.h"
 #include "Predicates/ExactPredicates.h"
+#include "Predicates/ExactPredicates3.h"
 #include "Triangulation/Duplicate.h"
 
 namespace tipp
@@ -11,10 +13,30 @@ namespace tipp
 namespace
 {
 
-/// Extends a survey by points, the first of which has the index `first`.
-void addPoints(PointSurvey& survey, std::size_t first, const Point2* points, std::size_t count)
+struct Extent3
 {
-  const Extent extent = extentOf(points, count);
+  Box3 Bounds;
+  bool AllFinite;
+};
+
+/// Returns the extent of points in space, without a special use of the processor.
+Extent3 extentOf(const Point3* points, std::size_t count)
+{
+  Extent3 extent{ Box3::empty(), true };
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    extent.Bounds.extend(points[i]);
+    extent.AllFinite = extent.AllFinite && isFinite(points[i]);
+  }
+  return extent;
+}
+
+/// Extends a survey by points, the first of which has the index `first`.
+template <int D>
+void addPoints(
+  PointSurveyOf<D>& survey, std::size_t first, const Point<D>* points, std::size_t count)
+{
+  const auto extent = extentOf(points, count);
   if (!extent.AllFinite && count > 1)
   {
     for (std::size_t i = 0; i < count; ++i)
@@ -32,46 +54,8 @@ void addPoints(PointSurvey& survey, std::size_t first, const Point2* points, std
   }
 }
 
-} // namespace
-
-PointSurvey surveyPoints(PointsView points, int threads)
-{
-  std::vector<PointSurvey> parts(static_cast<std::size_t>(threads));
-  parallelFor(threads, threads,
-    [&](std::int64_t part)
-    {
-      const auto [begin, end] = evenShare(points.size(), int(part), threads);
-      PointSurvey& survey = parts[std::size_t(part)];
-      points.forBlocks(begin, end,
-        [&survey](std::size_t first, const Point2* block, std::size_t count)
-        { addPoints(survey, first, block, count); });
-    });
-  PointSurvey all;
-  for (const PointSurvey& part : parts)
-  {
-    all.Bounds.extend(part.Bounds);
-    all.Rejected.insert(all.Rejected.end(), part.Rejected.begin(), part.Rejected.end());
-  }
-  return all;
-}
-
-std::vector<Point2> samplePoints(PointsView points, std::size_t count)
-{
-  std::vector<Point2> sample;
-  sample.reserve(count);
-  const double step = std::max(1.0, double(points.size()) / double(count));
-  const std::size_t samples = std::min(count, points.size());
-  for (std::size_t i = 0; i < samples; ++i)
-  {
-    const Point2 p = points[static_cast<std::size_t>((double(i) + 0.5) * step)];
-    if (isFinite(p))
-    {
-      sample.push_back(p);
-    }
-  }
-  return sample;
-}
-
+/// Returns a power of two that scales coordinates whose largest magnitude is `largest` to about 1;
+/// 1 if `largest` is 0 or between 2^-`moderate` and 2^`moderate`.
 double moderateFactor(double largest, int moderate)
 {
   constexpr int largestShift = 1000;
@@ -80,15 +64,86 @@ double moderateFactor(double largest, int moderate)
     : std::ldexp(1.0, std::clamp(-std::ilogb(largest), -largestShift, largestShift));
 }
 
-PointsView withModerateMagnitude(PointsView points, const Box2& bounds)
+template <int D>
+bool isExactTimes(const Point<D>& p, double factor)
 {
-  // Determinants have degree four in the coordinates, and rounding errors are 53 bits smaller.
-  constexpr int moderate = 200;
-  const double factor = moderateFactor(bounds.largest(), moderate);
+  bool isExact = true;
+  for (std::size_t k = 0; k < D; ++k)
+  {
+    isExact = isExact && p[k] * factor / factor == p[k];
+  }
+  return isExact;
+}
+
+///@{
+/// Returns whether p lies outside of the flat through the points of a simplex.
+bool isIndependent(const std::vector<Point2>& simplex, Point2 p)
+{
+  return simplex.empty() ||
+    (simplex.size() == 1 ? !(p == simplex[0]) : orientation(simplex[0], simplex[1], p) != 0);
+}
+bool isIndependent(const std::vector<Point3>& simplex, const Point3& p)
+{
+  const auto& s = simplex;
+  return s.empty() || (s.size() == 1 && !(p == s[0])) ||
+    (s.size() == 2 && !areCollinear(s[0], s[1], p)) ||
+    (s.size() == 3 && orientation3(s[0], s[1], s[2], p) != 0);
+}
+///@}
+
+} // namespace
+
+template <int D>
+PointSurveyOf<D> surveyPoints(const PointsViewOf<D>& points, int threads)
+{
+  std::vector<PointSurveyOf<D>> parts(static_cast<std::size_t>(threads));
+  parallelFor(threads, threads,
+    [&](std::int64_t part)
+    {
+      const auto [begin, end] = evenShare(points.size(), int(part), threads);
+      PointSurveyOf<D>& survey = parts[std::size_t(part)];
+      points.forBlocks(begin, end,
+        [&survey](std::size_t first, const Point<D>* block, std::size_t count)
+        { addPoints(survey, first, block, count); });
+    });
+  PointSurveyOf<D> all;
+  for (const PointSurveyOf<D>& part : parts)
+  {
+    all.Bounds.extend(part.Bounds);
+    all.Rejected.insert(all.Rejected.end(), part.Rejected.begin(), part.Rejected.end());
+  }
+  return all;
+}
+
+template <int D>
+std::vector<Point<D>> sampleEvery(const PointsViewOf<D>& points, double step)
+{
+  const auto index = [step](std::size_t i)
+  { return static_cast<std::size_t>((double(i) + 0.5) * step); };
+  std::vector<Point<D>> sample;
+  sample.reserve(std::size_t(double(points.size()) / step) + 1);
+  for (std::size_t i = 0; index(i) < points.size(); ++i)
+  {
+    const Point<D> p = points[index(i)];
+    if (isFinite(p))
+    {
+      sample.push_back(p);
+    }
+  }
+  return sample;
+}
+
+template <int D>
+PointsViewOf<D> withModerateMagnitude(const PointsViewOf<D>& points, const Box<D>& bounds)
+{
+  // Determinants have degree four in the coordinates of the plane, and rounding errors are 53 bits
+  // smaller. In space they have degree five, and their filters square them.
+  constexpr int moderate = D == 2 ? 200 : 24;
+  const double factor = bounds.isEmpty() ? 1 : moderateFactor(bounds.largest(), moderate);
   for (std::size_t i = 0; factor != 1 && i < points.size(); ++i)
   {
-    const Point2 p = points[i];
-    if (isFinite(p) && !(isExactTimes(p.x, factor) && isExactTimes(p.y, factor)))
+    const Point<D> p = points[i];
+    if (isFinite(p) && !isExactTimes<D>(p, factor))
     {
       return points;
     }
@@ -96,37 +151,26 @@ PointsView withModerateMagnitude(PointsView points, const Box2& bounds)
   return points.scaled(factor);
 }
 
-bool CollinearityTest::add(Point2 p)
+template <int D>
+void DimensionTest<D>::add(const Point<D>& p)
 {
-  if (!this->Holds || !isFinite(p) || (this->Found > 0 && p == this->Line[0]))
+  if (!this->isFull() && isFinite(p) && isIndependent(this->Simplex, p))
   {
-    return this->Holds;
+    this->Simplex.push_back(p);
   }
-  if (this->Found < 2)
-  {
-    this->Line[this->Found++] = p;
-  }
-  else
-  {
-    this->Holds = orientation(this->Line[0], this->Line[1], p) == 0;
-  }
-  return this->Holds;
 }
 
-bool areCollinear(PointsView points)
+bool areCollinear(const PointsView& points)
 {
-  CollinearityTest test;
-  for (std::size_t i = 0; i < points.size(); ++i)
+  DimensionTest<2> test;
+  for (std::size_t i = 0; i < points.size() && !test.isFull(); ++i)
   {
-    if (!test.add(points[i]))
-    {
-      return false;
-    }
+    test.add(points[i]);
   }
-  return true;
+  return !test.isFull();
 }
 
-std::vector<Duplicate> sortOutDuplicates(PointsView points)
+std::vector<Duplicate> sortOutDuplicates(const PointsView& points)
 {
   std::vector<PointId> order;
   order.reserve(points.size());
@@ -161,5 +205,14 @@ std::vector<Duplicate> sortOutDuplicates(PointsView points)
   std::sort(duplicates.begin(), duplicates.end());
   return duplicates;
 }
+
+template PointSurveyOf<2> surveyPoints(const PointsViewOf<2>& points, int threads);
+template std::vector<Point<2>> sampleEvery(const PointsViewOf<2>& points, double step);
+template PointsViewOf<2> withModerateMagnitude(const PointsViewOf<2>& points, const Box<2>& bounds);
+template class DimensionTest<2>;
+template PointSurveyOf<3> surveyPoints(const PointsViewOf<3>& points, int threads);
+template std::vector<Point<3>> sampleEvery(const PointsViewOf<3>& points, double step);
+template PointsViewOf<3> withModerateMagnitude(const PointsViewOf<3>& points, const Box<3>& bounds);
+template class DimensionTest<3>;
 
 } // namespace tipp

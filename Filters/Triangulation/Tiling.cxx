@@ -48,25 +48,9 @@ std::uint32_t cellsAlongASide(PartitionIndex boxes)
 
 std::int32_t Tiling::addBox(const Box2& box, PartitionIndex partition)
 {
-  const auto node = static_cast<std::int32_t>(this->Nodes.size());
-  this->Nodes.push_back({ 0, 0, { node, node }, partition });
   this->Boxes.resize(std::max(this->Boxes.size(), std::size_t(partition) + 1));
   this->Boxes[std::size_t(partition)] = box;
-  return node;
-}
-
-/// Adds a cut, then the subtrees that first() and second() add below it. Returns the cut's node.
-template <typename MakeFirst, typename MakeSecond>
-std::int32_t Tiling::addCut(
-  int axis, double at, const MakeFirst& makeFirst, const MakeSecond& makeSecond)
-{
-  const auto cut = static_cast<std::int32_t>(this->Nodes.size());
-  this->Nodes.push_back({ at, axis, { 0, 0 }, -1 });
-  const std::int32_t first = makeFirst();
-  const std::int32_t second = makeSecond();
-  this->Nodes[std::size_t(cut)].Child[0] = first;
-  this->Nodes[std::size_t(cut)].Child[1] = second;
-  return cut;
+  return this->addLeaf(partition);
 }
 
 Tiling Tiling::grid(const Box2& domain, int columns, int rows)

@@ -7,6 +7,7 @@
 #include "Parallel/Instructions.h"
 #include "Predicates/Circumball.h"
 #include "Predicates/Geometry.h"
+#include "Triangulation/CutTree.h"
 #include "Triangulation/PointsView.h"
 #include "vtkTIPPFiltersModule.h"
 
@@ -47,9 +48,9 @@ inline void requireFitsKernel(std::size_t pointsInPartition)
   }
 }
 
-/// The partitions' boxes: a domain cut in two repeatedly. Every point belongs to exactly one
-/// partition (a point on a cut to the upper one); the boxes are closed and share their borders.
-class VTKTIPPFILTERS_EXPORT Tiling
+/// The partitions' boxes: a domain cut in two repeatedly. For many points PartitionFinder is faster
+/// than locate().
+class VTKTIPPFILTERS_EXPORT Tiling : public CutTree<2>
 {
 public:
   /// Equal boxes, `columns` x `rows`. Throws std::length_error beyond MostPartitions.
@@ -64,17 +65,13 @@ public:
   template <typename Archive>
   friend void serialize(Archive& archive, Tiling& tiling)
   {
-    archive(tiling.Domain, tiling.Nodes, tiling.Boxes);
+    archive(tiling.Domain, tiling.Nodes, tiling.Count, tiling.Boxes);
   }
 
-  PartitionIndex size() const { return static_cast<PartitionIndex>(this->Boxes.size()); }
   const Box2& box(PartitionIndex i) const { return this->Boxes[static_cast<std::size_t>(i)]; }
   const Box2& domain() const { return this->Domain; }
 
   const std::vector<Box2>& boxes() const { return this->Boxes; }
-
-  /// The partition of a point; for many points PartitionFinder is faster.
-  PartitionIndex locate(Point2 p) const { return this->locate(p, 0); }
 
   /// Calls visit(partition) for every box that the closed disk meets.
   template <typename Visit>
@@ -90,68 +87,16 @@ public:
       });
   }
 
-  /// Calls visit(partition) for every box that meets the bounds, and perhaps for some others.
-  template <typename Visit>
-  void visitNear(const Box2& bounds, Visit&& visit) const
-  {
-    std::array<std::int32_t, MaximumDepth> pending;
-    std::size_t size = 0;
-    pending[size++] = 0;
-    while (size > 0)
-    {
-      const Node* node = &this->node(pending[--size]);
-      while (!node->isBox())
-      {
-        const bool below = bounds.Min[node->Axis] <= node->Coordinate;
-        const bool above = bounds.Max[node->Axis] >= node->Coordinate;
-        if (below && above)
-        {
-          pending[size++] = node->Child[1];
-        }
-        node = &this->node(node->Child[!below]);
-      }
-      visit(node->Partition);
-    }
-  }
-
 private:
   friend class PartitionFinder;
-
-  /// A cut or a box.
-  struct Node
-  {
-    double Coordinate;
-    std::int32_t Axis;
-    std::int32_t Child[2]; ///< nodes below the cut and above it; for a box, itself
-    PartitionIndex Partition;
-
-    bool isBox() const { return this->Partition >= 0; }
-  };
-  // Every cut halves the number of boxes, which fits into 31 bits.
-  static constexpr std::size_t MaximumDepth = 64;
-
-  /// The partition of a point that is known to be below the node `from`.
-  PartitionIndex locate(Point2 p, std::int32_t from) const
-  {
-    const Node* at = &this->node(from);
-    while (!at->isBox())
-    {
-      at = &this->node(at->Child[p[at->Axis] >= at->Coordinate]);
-    }
-    return at->Partition;
-  }
 
   std::int32_t cutGrid(const Box2& box, int columns, int rows);
   std::int32_t cutSample(const Box2& box, Point2* begin, Point2* end, int count);
   std::int32_t addBox(const Box2& box, PartitionIndex partition);
-  template <typename MakeFirst, typename MakeSecond>
-  std::int32_t addCut(int axis, double at, const MakeFirst& first, const MakeSecond& second);
   template <typename MakeBox>
   std::int32_t addTree(const Tiling& tree, std::int32_t from, const MakeBox& makeBox);
-  const Node& node(std::int32_t i) const { return this->Nodes[static_cast<std::size_t>(i)]; }
 
   Box2 Domain{};
-  std::vector<Node> Nodes; ///< the first is the root
   std::vector<Box2> Boxes;
 };
 

@@ -6,7 +6,7 @@
 #include "Parallel/CountingSort.h"
 #include "Parallel/ParallelFor.h"
 #include "Predicates/Geometry.h"
-#include "Triangulation/BoundaryTriangles.h"
+#include "Triangulation/BoundaryCells.h"
 #include "Triangulation/PointBuckets.h"
 #include "Triangulation/Triangulation.h"
 

@@ -4,8 +4,9 @@
 #include "Engine/PartitionSchedule.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Stopwatch.h"
-#include "Triangulation/BoundaryTriangles.h"
+#include "Triangulation/BoundaryCells.h"
 #include "Triangulation/Dataflow.h"
+#include "Triangulation/InitialMesh.h"
 #include "Triangulation/PointBuckets.h"
 #include "Triangulation/TriangleSink.h"
 
@@ -122,7 +123,7 @@ private:
       chooseInitialPoints(tiling, this->Buckets, pointsPerPartition, this->PassThreads);
     this->Result.Statistics.InitialPoints = std::int64_t(initial.size());
     initial.insert(initial.end(), artificial.begin(), artificial.end());
-    return triangulateVertices(regions, initial, this->PassThreads);
+    return triangulateVertices<2>(regions, initial, this->PassThreads);
   }
 
   void endPhase(const char* name)
@@ -379,7 +380,7 @@ Triangulation triangulateAll(PointsView input, const TriangulationOptions& optio
   statistics.Threads = threadCount(options.Threads);
   Stopwatch watch;
   const int passThreads = threadsForPass(input.size(), statistics.Threads);
-  PointSurvey survey = surveyPoints(input, passThreads);
+  PointSurveyOf<2> survey = surveyPoints(input, passThreads);
   result.Rejected = std::move(survey.Rejected);
   if (areCollinear(input))
   {

@@ -1,87 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Triangulation3D/Dataflow3.h"
 
-#include "Predicates/ExactPredicates3.h"
-
 #include <algorithm>
 #include <limits>
 
 namespace tipp
 {
-namespace
-{
-
-using Index = DelaunayKernel3::Index;
-
-/// Artificial points, which are on the sides of a box, in groups of neighbours with boxes of their
-/// own.
-class ArtificialGroups
-{
-public:
-  explicit ArtificialGroups(const std::vector<Vertex3>& artificial)
-  {
-    for (const Vertex3& z : artificial)
-    {
-      this->Bounds.extend(z.Position);
-    }
-    const Box3& box = this->Bounds;
-    std::array<std::vector<Point3>, 6> sides;
-    for (const Vertex3& z : artificial)
-    {
-      const Point3& p = z.Position;
-      const std::array<bool, 6> isOn = { p.x == box.Min.x, p.x == box.Max.x, p.y == box.Min.y,
-        p.y == box.Max.y, p.z == box.Min.z, true };
-      sides[std::size_t(std::find(isOn.begin(), isOn.end(), true) - isOn.begin())].push_back(p);
-    }
-    for (const std::vector<Point3>& side : sides)
-    {
-      this->addGroups(side);
-    }
-  }
-
-  /// The box that all points are on.
-  const Box3& box() const { return this->Bounds; }
-
-  /// Whether the tetrahedron of these corners is in conflict with one of the points.
-  bool areInConflict(const Point3& a, const Point3& b, const Point3& c, const Point3& d) const
-  {
-    const Circumball ball(a, b, c, d);
-    const auto isInConflict = [&](const Point3& p)
-    { return ball.meets(Box3::of(p)) && inSpherePerturbed(a, b, c, d, p); };
-    return std::any_of(this->Groups.begin(), this->Groups.end(),
-      [&](const Group& group)
-      {
-        return ball.meets(group.Bounds) &&
-          std::any_of(group.Points.begin(), group.Points.end(), isInConflict);
-      });
-  }
-
-private:
-  struct Group
-  {
-    Box3 Bounds = Box3::empty();
-    std::vector<Point3> Points;
-  };
-
-  void addGroups(const std::vector<Point3>& side)
-  {
-    constexpr std::size_t most = 16;
-    for (std::size_t i = 0; i < side.size(); ++i)
-    {
-      if (i % most == 0)
-      {
-        this->Groups.emplace_back();
-      }
-      this->Groups.back().Points.push_back(side[i]);
-      this->Groups.back().Bounds.extend(side[i]);
-    }
-  }
-
-  Box3 Bounds = Box3::empty();
-  std::vector<Group> Groups;
-};
-
-} // namespace
 
 Vertex3 Worker3::vertex(Index v) const
 {
@@ -318,34 +242,6 @@ SentMessages3 Worker3::send()
     to = later.begin()[to];
   }
   return sent;
-}
-
-void repairHull(std::vector<Vertex3> vertices, const std::vector<Vertex3>& artificial,
-  const std::function<void(const std::array<Vertex3, 4>&)>& add)
-{
-  keepUnique(vertices);
-  const std::vector<Point3> points = positionsOf(vertices);
-  const ArtificialGroups groups(artificial);
-  DelaunayKernel3 kernel;
-  kernel.triangulate(points.data(), points.size());
-  kernel.forEach(
-    [&](Index cell)
-    {
-      if (kernel.isInfinite(cell))
-      {
-        return;
-      }
-      const std::array<Index, 4> v = kernel.corners(cell);
-      const Point3& a = kernel.point(v[0]);
-      const Point3& b = kernel.point(v[1]);
-      const Point3& c = kernel.point(v[2]);
-      const Point3& d = kernel.point(v[3]);
-      if (!Circumball::isSurelyInside(a, b, c, d, groups.box()) && groups.areInConflict(a, b, c, d))
-      {
-        const auto vertex = [&](Index corner) { return vertices[kernel.pointIndex(corner)]; };
-        add({ vertex(v[0]), vertex(v[1]), vertex(v[2]), vertex(v[3]) });
-      }
-    });
 }
 
 } // namespace tipp

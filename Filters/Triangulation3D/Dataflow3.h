@@ -6,6 +6,7 @@
 #include "Engine/PartitionSchedule.h"
 #include "Kernel/DelaunayKernel3.h"
 #include "Predicates/Circumball.h"
+#include "Triangulation/Hull.h"
 #include "Triangulation/Triangulate.h"
 #include "Triangulation3D/Partitions3.h"
 
@@ -22,16 +23,12 @@ using VertexMessage3 = VertexMessageOf<Vertex3>;
 using Inbox3 = MessageInbox<VertexMessage3>;
 using SentMessages3 = SentMessagesOf<Vertex3>;
 
-/// Receives final tetrahedra: those that no later partition can change. Ids are those of Vertex3.
-class FinalCellConsumer3
+/// Receives final tetrahedra, most of them without positions. Ids are those of Vertex3.
+class FinalCellConsumer3 : public FinalCellConsumer<3>
 {
 public:
-  virtual ~FinalCellConsumer3() = default;
-
   /// Adds a tetrahedron whose corners are the partition's own points; see InsideCells.
   virtual void addInside(const std::array<std::int64_t, 4>& ids) = 0;
-  /// Adds any other tetrahedron. It may have artificial corners.
-  virtual void add(const std::array<Vertex3, 4>& corners) = 0;
 };
 
 /// Which tetrahedra of its own points a worker gives to FinalCellConsumer3::addInside().
@@ -73,17 +70,19 @@ public:
   std::size_t vertexCount() const { return this->VertexCount; }
 
 private:
+  using Index = DelaunayKernel3::Index;
+
   void collect(const std::vector<VertexMessage3>& inbox);
   Box3 boxBesideLater() const;
   SentMessages3 routeAll(FinalCellConsumer3& final);
   void measureVertices();
-  void test(DelaunayKernel3::Index cell);
-  void findBorder(DelaunayKernel3::Index cell);
-  void addInside(DelaunayKernel3::Index cell, FinalCellConsumer3& final) const;
-  void route(DelaunayKernel3::Index cell, FinalCellConsumer3& final);
+  void test(Index cell);
+  void findBorder(Index cell);
+  void addInside(Index cell, FinalCellConsumer3& final) const;
+  void route(Index cell, FinalCellConsumer3& final);
   SentMessages3 send();
   void takeDuplicates();
-  Vertex3 vertex(DelaunayKernel3::Index v) const;
+  Vertex3 vertex(Index v) const;
 
   struct Measured
   {
@@ -100,20 +99,13 @@ private:
   DelaunayKernel3 Kernel;
   std::vector<Vertex3> Others; ///< from the inbox
   /// By later partition: the tetrahedra for it.
-  std::vector<std::vector<std::array<DelaunayKernel3::Index, 4>>> Outgoing;
-  std::vector<Measured> Vertices;             ///< by vertex
-  std::vector<char> IsTested;                 ///< by tetrahedron
-  std::vector<DelaunayKernel3::Index> ToTest; ///< whose circumballs are tested, in this order
+  std::vector<std::vector<std::array<Index, 4>>> Outgoing;
+  std::vector<Measured> Vertices; ///< by vertex
+  std::vector<char> IsTested;     ///< by tetrahedron
+  std::vector<Index> ToTest;      ///< whose circumballs are tested, in this order
   std::vector<Duplicate> Duplicates;
   std::size_t VertexCount = 0;
 };
-
-/// Removes the artificial points (Lemma 3). Tetrahedralizes `vertices`, the true corners of
-/// tetrahedra with artificial corners, and calls add(corners) for the resulting tetrahedra that are
-/// in conflict with an artificial point. They fill the space of the removed tetrahedra. `vertices`
-/// may contain a vertex several times.
-void repairHull(std::vector<Vertex3> vertices, const std::vector<Vertex3>& artificial,
-  const std::function<void(const std::array<Vertex3, 4>&)>& add);
 
 } // namespace tipp
 

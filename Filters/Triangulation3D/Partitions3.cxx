@@ -1,67 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Triangulation3D/Partitions3.h"
+#include "Triangulation/InitialMesh.h"
 
 #include "Arrays/Buffer.h"
-#include "Kernel/DelaunayKernel3.h"
 #include "Parallel/CountingSort.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Sort.h"
-#include "Predicates/Circumball.h"
 
 #include <algorithm>
 #include <utility>
 
 namespace tipp
 {
-PointSurvey3 surveyPoints(const PointsView3& points)
-{
-  PointSurvey3 survey;
-  for (std::size_t i = 0; i < points.size(); ++i)
-  {
-    const Point3 p = points[i];
-    const double largest = std::max({ std::fabs(p.x), std::fabs(p.y), std::fabs(p.z) });
-    // The larger of NaN and a number may be either. The sum tells, but may overflow for finite
-    // numbers.
-    if (!std::isfinite(p.x + p.y + p.z) && !isFinite(p))
-    {
-      survey.Rejected.push_back(std::int64_t(i));
-    }
-    else
-    {
-      survey.Largest = std::max(survey.Largest, largest);
-    }
-  }
-  return survey;
-}
-
-std::vector<Point3> samplePoints(const PointsView3& points, std::size_t step)
-{
-  std::vector<Point3> sample;
-  for (std::size_t i = step / 2; i < points.size(); i += step)
-  {
-    if (isFinite(points[i]))
-    {
-      sample.push_back(points[i]);
-    }
-  }
-  return sample;
-}
-
-bool areExactTimes(const PointsView3& points, double factor)
-{
-  return factor == 1 ||
-    std::all_of(points.Points, points.Points + points.size(),
-      [factor](const Point3& p) {
-        return isExactTimes(p.x, factor) && isExactTimes(p.y, factor) && isExactTimes(p.z, factor);
-      });
-}
-
-double moderateFactor(double largest)
-{
-  // Determinants have degree five in the coordinates, and their filters square them.
-  constexpr int moderate = 24;
-  return moderateFactor(largest, moderate);
-}
 
 Tiling3::Tiling3(std::vector<Point3> sample, int count)
   : Tiling3(std::move(sample), PartitionGroups{ 1, std::max(count, 1) })
@@ -99,14 +49,13 @@ double Tiling3::shareBefore(int partition) const
   return before <= 1 ? before * first : first + (before - 1) * (1 - first) / (groups - 1);
 }
 
-void Tiling3::cut(Iterator begin, Iterator end, int first, int count)
+/// Returns the node.
+std::int32_t Tiling3::cut(Iterator begin, Iterator end, int first, int count)
 {
-  const std::size_t self = this->Nodes.size();
-  this->Nodes.emplace_back();
   Box3 bounds = Box3::empty();
   std::for_each(begin, end, [&bounds](const Point3& p) { bounds.extend(p); });
   const int axis = this->axisFor(count, bounds);
-  const auto below = [axis](const Point3& p, const Point3& q) { return p[axis] < q[axis]; };
+  const auto k = std::size_t(axis);
   const int each = count > this->Groups.Each ? this->Groups.Each : 1;
   const int lower = count / each / 2 * each;
   const double before = this->shareBefore(first);
@@ -117,54 +66,39 @@ void Tiling3::cut(Iterator begin, Iterator end, int first, int count)
   double at = 0;
   if (canCut)
   {
-    std::nth_element(begin, middle, end, below);
-    at = (*middle)[axis];
-    canCut = at > bounds.Min[axis];
+    std::nth_element(
+      begin, middle, end, [k](const Point3& p, const Point3& q) { return p[k] < q[k]; });
+    at = (*middle)[k];
+    canCut = at > bounds.Min[k];
   }
   if (!canCut)
   {
-    this->Nodes[self].Partition = this->Count++;
     this->Firsts.push_back(first);
-    return;
+    return this->addLeaf(this->size());
   }
-  // Points with the cut's coordinate belong to the upper side.
-  const Iterator split = std::partition(begin, end, [&](const Point3& p) { return p[axis] < at; });
-  this->cut(begin, split, first, lower);
-  this->Nodes[self].Axis = axis;
-  this->Nodes[self].Cut = at;
-  this->Nodes[self].Upper = this->Nodes.size();
-  this->cut(split, end, first + lower, count - lower);
-}
-
-PartitionIndex Tiling3::locate(const Point3& p) const
-{
-  std::size_t node = 0;
-  while (this->Nodes[node].Axis >= 0)
-  {
-    const Node& cut = this->Nodes[node];
-    node = p[cut.Axis] < cut.Cut ? node + 1 : cut.Upper;
-  }
-  return this->Nodes[node].Partition;
+  const Iterator split = std::partition(begin, end, [&](const Point3& p) { return p[k] < at; });
+  return this->addCut(
+    axis, at, [&] { return this->cut(begin, split, first, lower); },
+    [&] { return this->cut(split, end, first + lower, count - lower); });
 }
 
 std::vector<Box3> Tiling3::boxes(const Box3& domain) const
 {
-  std::vector<Box3> boxes(std::size_t(this->Count));
-  this->setBoxes(0, domain, boxes);
+  std::vector<Box3> boxes(std::size_t(this->size()));
+  this->setBoxes(this->node(0), domain, boxes);
   return boxes;
 }
 
-void Tiling3::setBoxes(std::size_t node, const Box3& box, std::vector<Box3>& boxes) const
+void Tiling3::setBoxes(const Node& node, const Box3& box, std::vector<Box3>& boxes) const
 {
-  const Node& at = this->Nodes[node];
-  if (at.Axis < 0)
+  if (node.isBox())
   {
-    boxes[std::size_t(at.Partition)] = box;
+    boxes[std::size_t(node.Partition)] = box;
     return;
   }
-  const auto [lower, upper] = box.cut(std::size_t(at.Axis), at.Cut);
-  this->setBoxes(node + 1, lower, boxes);
-  this->setBoxes(at.Upper, upper, boxes);
+  const auto [lower, upper] = box.cut(std::size_t(node.Axis), node.Coordinate);
+  this->setBoxes(this->node(node.Child[0]), lower, boxes);
+  this->setBoxes(this->node(node.Child[1]), upper, boxes);
 }
 
 PointBuckets3 bucketPoints(const PointsView3& points, const Tiling3& tiling, int threads)
@@ -297,47 +231,21 @@ std::vector<Vertex3> makeArtificialPoints(const PointBuckets3& buckets, bool are
   return vertices;
 }
 
-InitialMesh3::InitialMesh3(
-  const PointBuckets3& buckets, const std::vector<Vertex3>& artificial, std::size_t wanted)
+BoundaryCells<3> makeInitialMesh(const Tiling3& tiling, const PointBuckets3& buckets,
+  const std::vector<Vertex3>& artificial, std::size_t wanted)
 {
-  const std::vector<char> areUsed = buckets.areUsed();
-  const std::size_t partitions = areUsed.size();
-  for (std::size_t p = 0; p < partitions; ++p)
+  std::vector<Vertex3> vertices;
+  for (PartitionIndex p = 0; p < tiling.size(); ++p)
   {
-    const PartitionPoints3 own = buckets.of(PartitionIndex(p));
-    for (const std::size_t i :
-      areUsed[p] ? chooseInitialPoints(own.Points, own.Count, wanted) : std::vector<std::size_t>())
+    const PartitionPoints3 own = buckets.of(p);
+    for (const std::size_t i : own.Count > 0 ? chooseInitialPoints(own.Points, own.Count, wanted)
+                                             : std::vector<std::size_t>())
     {
-      this->Vertices.push_back({ own.Points[i], own.id(i), own.Partition });
+      vertices.push_back({ own.Points[i], own.id(i), p });
     }
   }
-  this->Vertices.insert(this->Vertices.end(), artificial.begin(), artificial.end());
-  const std::vector<Point3> points = positionsOf(this->Vertices);
-  DelaunayKernel3 kernel;
-  kernel.triangulate(points.data(), points.size());
-  std::vector<PartitionIndex> met;
-  kernel.forEach(
-    [&](DelaunayKernel3::Index t)
-    {
-      if (kernel.isInfinite(t))
-      {
-        return;
-      }
-      const auto [a, b, c, d] = kernel.corners(t);
-      this->Cells.push_back(
-        { kernel.pointIndex(a), kernel.pointIndex(b), kernel.pointIndex(c), kernel.pointIndex(d) });
-      const Circumball ball(kernel.point(a), kernel.point(b), kernel.point(c), kernel.point(d));
-      met.clear();
-      for (std::size_t p = 0; p < partitions; ++p)
-      {
-        if (areUsed[p] && ball.meets(buckets.Regions[p]))
-        {
-          met.push_back(PartitionIndex(p));
-        }
-      }
-      this->SetOf.push_back(this->Sets.number(met.data(), met.data() + met.size()));
-    });
-  this->AdjacentSets = adjacentSets<4>(kernel, setsByNumber(kernel, this->SetOf));
+  vertices.insert(vertices.end(), artificial.begin(), artificial.end());
+  return triangulateVertices<3>(buckets.regions(tiling), vertices, 1);
 }
 
 } // namespace tipp

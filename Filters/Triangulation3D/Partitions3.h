@@ -3,9 +3,11 @@
 #define tippPartitions3_h
 
 #include "Predicates/Geometry.h"
-#include "Triangulation/BoundaryTriangles.h"
+#include "Triangulation/BoundaryCells.h"
+#include "Triangulation/CutTree.h"
 #include "Triangulation/PointsView.h"
-#include "Triangulation/Tiling.h"
+#include "Triangulation/Regions.h"
+#include "vtkTIPPFiltersModule.h"
 
 #include <array>
 #include <cstddef>
@@ -14,47 +16,6 @@
 
 namespace tipp
 {
-
-/// Points in memory, multiplied by a factor. Does not own the memory.
-struct PointsView3
-{
-  const Point3* Points = nullptr;
-  std::size_t Count = 0;
-  double Factor = 1;
-
-  std::size_t size() const { return this->Count; }
-  Point3 operator[](std::size_t i) const
-  {
-    const Point3& p = this->Points[i];
-    return { p.x * this->Factor, p.y * this->Factor, p.z * this->Factor };
-  }
-  /// Calls visit(index, point) for begin <= index < end, in order.
-  template <typename Visit>
-  void forEach(std::size_t begin, std::size_t end, const Visit& visit) const
-  {
-    for (std::size_t i = begin; i < end; ++i)
-    {
-      visit(i, (*this)[i]);
-    }
-  }
-};
-
-/// The result of a first pass over points.
-struct PointSurvey3
-{
-  std::vector<std::int64_t> Rejected; ///< indices of points that are not finite; ascending
-  double Largest = 0;                 ///< largest magnitude of a finite point's coordinate
-};
-PointSurvey3 surveyPoints(const PointsView3& points);
-
-/// Returns every step-th point, if it is finite.
-std::vector<Point3> samplePoints(const PointsView3& points, std::size_t step);
-
-/// Returns a power of two that scales coordinates of very small or very large magnitude to about 1,
-/// so that the predicates' filters work; 1 for other magnitudes.
-double moderateFactor(double largest);
-/// Returns whether multiplying the points by the factor, a power of two, is exact.
-bool areExactTimes(const PointsView3& points, double factor);
 
 /// Groups of partitions, such as those of the ranks of a run.
 struct PartitionGroups
@@ -70,9 +31,8 @@ struct PartitionGroups
 };
 
 /// Divides space into partitions with about equal numbers of sample points: a tree of cuts, each
-/// across the longest side of its sample points' bounding box. A point on a cut belongs to the
-/// upper side.
-class Tiling3
+/// across the longest side of its sample points' bounding box.
+class VTKTIPPFILTERS_EXPORT Tiling3 : public CutTree<3>
 {
 public:
   /// Cuts space into at most `count` partitions; fewer if the sample has too few distinct points.
@@ -89,61 +49,22 @@ public:
     archive(tiling.Nodes, tiling.Firsts, tiling.Count);
   }
 
-  PartitionIndex size() const { return this->Count; }
   /// Returns the group of a partition. Groups ascend with the partitions.
   int groupOf(PartitionIndex p) const { return this->Firsts[std::size_t(p)] / this->Groups.Each; }
-  PartitionIndex locate(const Point3& p) const;
 
   /// Returns the closed boxes of all partitions. Together they fill `domain`.
   std::vector<Box3> boxes(const Box3& domain) const;
 
-  /// Calls visit(partition) for the partitions whose closed boxes meet `box`, the lower side of
-  /// each cut first.
-  template <typename Visit>
-  void visitMet(const Box3& box, const Visit& visit) const
-  {
-    this->visitMet(0, box, visit);
-  }
-
 private:
-  struct Node
-  {
-    double Cut = 0;
-    std::size_t Upper = 0; ///< the lower side's node follows this one
-    int Axis = -1;         ///< -1: a partition
-    PartitionIndex Partition = 0;
-  };
-
   using Iterator = std::vector<Point3>::iterator;
-  void cut(Iterator begin, Iterator end, int first, int count);
+  std::int32_t cut(Iterator begin, Iterator end, int first, int count);
   int axisFor(int count, const Box3& box);
   double shareBefore(int partition) const;
-  void setBoxes(std::size_t node, const Box3& box, std::vector<Box3>& boxes) const;
-
-  template <typename Visit>
-  void visitMet(std::size_t at, const Box3& box, const Visit& visit) const
-  {
-    const Node& node = this->Nodes[at];
-    if (node.Axis < 0)
-    {
-      visit(node.Partition);
-      return;
-    }
-    if (box.Min[node.Axis] <= node.Cut)
-    {
-      this->visitMet(at + 1, box, visit);
-    }
-    if (box.Max[node.Axis] >= node.Cut)
-    {
-      this->visitMet(node.Upper, box, visit);
-    }
-  }
+  void setBoxes(const Node& node, const Box3& box, std::vector<Box3>& boxes) const;
 
   PartitionGroups Groups;
   int SlabAxis = -1;
-  std::vector<Node> Nodes;
   std::vector<int> Firsts; ///< by partition: its number if all requested partitions had been made
-  PartitionIndex Count = 0;
 };
 
 /// The points of a partition.
@@ -184,6 +105,11 @@ struct PointBuckets3
     }
     return areUsed;
   }
+  /// Returns the regions of the partitions of `tiling`, which must outlive them.
+  RegionsOf<3> regions(const Tiling3& tiling) const
+  {
+    return { tiling, this->Regions, this->areUsed() };
+  }
   /// Returns the points of a partition. `first` is added to their ids.
   PartitionPoints3 of(PartitionIndex p, std::int64_t first = 0) const
   {
@@ -194,9 +120,6 @@ struct PointBuckets3
 
 /// Sorts the finite points by partition. Leaves out points that are not finite.
 PointBuckets3 bucketPoints(const PointsView3& points, const Tiling3& tiling, int threads);
-
-/// A vertex of a tetrahedron. Artificial points have the partition -1.
-using Vertex3 = VertexOf<Point3>;
 
 /// Returns the indices of about `wanted` points, ascending: the first points with the smallest and
 /// largest coordinates, and others at equal steps in the input's order.
@@ -209,21 +132,14 @@ std::vector<std::size_t> chooseInitialPoints(
 /// domain.
 std::vector<Vertex3> makeArtificialPoints(const PointBuckets3& buckets, bool areSlabs = false);
 
-/// The initial mesh: the Delaunay triangulation of some points of each partition and of the
-/// artificial points. It also lists the partitions that each tetrahedron meets: those whose region
-/// its closed circumball meets. The proof of Lemma 5 in PartitionSchedule.h holds with 'facet' for
-/// 'edge'.
-struct InitialMesh3 : MetPartitions
-{
-  static constexpr std::size_t PointsOfPartition = 48;
+/// The number of points of each partition in the initial mesh.
+constexpr std::size_t InitialPointsOfPartition3 = 48;
 
-  /// `wanted`: about how many initial points a partition gets.
-  InitialMesh3(const PointBuckets3& buckets, const std::vector<Vertex3>& artificial,
-    std::size_t wanted = PointsOfPartition);
-
-  std::vector<Vertex3> Vertices;
-  std::vector<std::array<std::uint32_t, 4>> Cells; ///< indices into Vertices
-};
+/// Returns the initial mesh: the Delaunay triangulation of some points of each partition and of the
+/// artificial points. The proof of Lemma 5 in PartitionSchedule.h holds with 'facet' for 'edge'.
+/// `wanted`: about how many initial points a partition gets.
+BoundaryCells<3> makeInitialMesh(const Tiling3& tiling, const PointBuckets3& buckets,
+  const std::vector<Vertex3>& artificial, std::size_t wanted = InitialPointsOfPartition3);
 
 } // namespace tipp
 

@@ -22,7 +22,7 @@ namespace
 /// One partition whose mesh all threads share is fastest. There are several partitions if the
 /// points exceed the indices of one mesh, or if there are many threads: each thread of a shared
 /// mesh needs a table of all vertices.
-int choosePartitionCount(std::size_t points, int threads)
+int partitionsInSpace(std::size_t points, int threads)
 {
   constexpr std::size_t largest = std::size_t(1) << 25;
   constexpr int mostSharing = 16;
@@ -79,14 +79,13 @@ public:
 
   void run()
   {
-    PointSurvey3 survey = surveyPoints(this->Points);
+    PointSurveyOf<3> survey = surveyPoints(this->Points, this->Threads);
     this->Result.Rejected = std::move(survey.Rejected);
-    const double factor = moderateFactor(survey.Largest);
-    this->Points.Factor = areExactTimes(this->Points, factor) ? factor : 1;
+    this->Points = withModerateMagnitude(this->Points, survey.Bounds);
     this->endPhase("survey");
     const int partitions = this->Options.Partitions > 0
       ? this->Options.Partitions
-      : choosePartitionCount(this->Points.size(), this->Threads);
+      : partitionsInSpace(this->Points.size(), this->Threads);
     const bool done = partitions > 1 && this->runPartitioned(partitions);
     if (!done)
     {
@@ -114,7 +113,7 @@ private:
   {
     this->Result.Statistics.Partitions = 1;
     PointBuckets3 copy;
-    const bool areReady = this->Points.Factor == 1 && this->Result.Rejected.empty();
+    const bool areReady = this->Points.factor() == 1 && this->Result.Rejected.empty();
     if (!areReady)
     {
       copy = bucketPoints(this->Points, Tiling3({}, 1), this->Threads);
@@ -124,7 +123,7 @@ private:
     { return areReady ? static_cast<std::int32_t>(index) : copy.Ids[index]; };
     DelaunayKernel3 kernel;
     this->Result.Aborted = !kernel.triangulate(
-      areReady ? this->Points.Points : copy.Points.data(), count,
+      areReady ? this->Points.contiguous() : copy.Points.data(), count,
       [&](std::size_t inserted) { return this->report(double(inserted) / double(count)); },
       this->Threads);
     this->Result.Dimension = kernel.dimension();
@@ -165,7 +164,7 @@ private:
     constexpr std::size_t samplesPerPartition = 256;
     const std::size_t step = std::max<std::size_t>(
       1, this->Points.size() / (samplesPerPartition * std::size_t(partitions)));
-    const Tiling3 tiling(samplePoints(this->Points, step), partitions);
+    const Tiling3 tiling(sampleEvery(this->Points, double(step)), partitions);
     const PointBuckets3 buckets = bucketPoints(this->Points, tiling, this->Threads);
     this->endPhase("bucketing");
     const std::vector<Vertex3> artificial = makeArtificialPoints(buckets);
@@ -173,7 +172,7 @@ private:
     {
       return false;
     }
-    const InitialMesh3 initial(buckets, artificial);
+    const BoundaryCells<3> initial = makeInitialMesh(tiling, buckets, artificial);
     if (this->Options.Partitions == 0 && !partitionsPay(initial))
     {
       return false;
@@ -192,8 +191,7 @@ private:
     this->work(buckets, order, inboxes, boundary);
     if (!this->Result.Aborted)
     {
-      repairHull(std::move(boundary.HullVertices), artificial,
-        [&](const std::array<Vertex3, 4>& corners) { boundary.add(corners); });
+      repairHull(std::move(boundary.HullVertices), artificial, boundary);
       this->Cells.push_back(std::move(boundary.Cells));
       this->endPhase("hull");
       const bool hasCells = std::any_of(this->Cells.begin(), this->Cells.end(),

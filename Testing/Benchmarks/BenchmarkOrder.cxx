@@ -5,7 +5,7 @@
 #include "Distributed/SharedInitialMesh.h"
 #include "Parallel/Stopwatch.h"
 #include "Points/ReadPoints.h"
-#include "Triangulation/BoundaryTriangles.h"
+#include "Triangulation/BoundaryCells.h"
 #include "Triangulation/Dataflow.h"
 #include "Triangulation/Tiling.h"
 

@@ -9,7 +9,7 @@
 #include "Files/Platform.h"
 #include "InMemory/TriangulatePoints.h"
 #include "Meshes/MeshFiles.h"
-#include "OutOfCore3D/OutOfCoreTetrahedralization.h"
+#include "OutOfCore/OutOfCoreTetrahedralization.h"
 #include "Parallel/Stopwatch.h"
 #include "Points/ReadPoints.h"
 #include "Ranks/Communicator.h"
@@ -19,6 +19,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -227,36 +228,58 @@ void triangulateShares(Communicator& ranks, const Delaunay3DArguments& arguments
   writeOnFirst(ranks, arguments, mine, watch.seconds(), before);
 }
 
-int runOutOfCore(const Delaunay3DArguments& arguments)
+void reportMade(const Delaunay3DArguments& arguments, const OutOfCoreStatistics3& statistics,
+  const RankUsage& usage)
 {
-  checkOutputs(arguments.Output, arguments.Statistics, arguments.Scratch, arguments.Inputs);
-  returnLargeBlocks();
-  const auto points = openPointStream(arguments.Inputs, withThinningFile(arguments));
-  requireInBounds(arguments.Inputs, arguments.Columns, points->readFigures());
-  reportRead(points->readFigures());
-  reportTables(points->reports());
+  const double seconds = totalSeconds(statistics.Phases);
+  nlohmann::ordered_json json = { { "input", arguments.Inputs }, { "output", arguments.Output },
+    { "seconds", seconds },
+    { "peak_memory_bytes", *std::max_element(usage.PeakMemory.begin(), usage.PeakMemory.end()) },
+    { "ranks", usage.PeakMemory.size() } };
+  json.update(jsonOf(statisticsOf(statistics)));
+  reportLeftOut(statistics.LeftOut, statistics.ThinnedOut);
+  reportRun(arguments.Statistics, json, seconds,
+    usage.PeakMemory.size() == 1 ? "" : " of the largest rank");
+  printWarnings(warningsOf(statistics));
+}
+
+/// Runs `tipp delaunay3d` out of core on the ranks of a controller, or in this process alone
+/// (null). Returns the exit code, which is the same on all ranks.
+int runInPieces(const Delaunay3DArguments& arguments, vtkMultiProcessController* controller)
+{
+  Communicator ranks(controller);
   OutOfCoreOptions3 options;
   arguments.setOptions(options);
   options.Threads = arguments.Threads;
   options.MapDuplicates = arguments.MapDuplicates;
   options.Neighbors = arguments.Neighbors;
-  const std::string title = "Tetrahedralizing";
-  auto bar = std::make_unique<ProgressBar>(title);
-  options.Progress = progressOn(bar);
-  options.Warn = warnAbove(bar, title);
-  const OutOfCoreStatistics3 made = tetrahedralizeOutOfCore(*points, arguments.Output, options);
-  bar.reset();
-  if (made.Aborted)
+  const auto open = [&]
   {
-    return reportInterruptedRun(made.Kept);
+    if (ranks.isFirst())
+    {
+      checkOutputs(arguments.Output, arguments.Statistics, arguments.Scratch, arguments.Inputs);
+    }
+    auto points = openPointStream(arguments.Inputs, withThinningFile(arguments));
+    if (ranks.isFirst())
+    {
+      requireInBounds(arguments.Inputs, arguments.Columns, points->readFigures());
+      reportRead(points->readFigures());
+      reportTables(points->reports());
+    }
+    return points;
+  };
+  OutOfCoreStatistics3 statistics;
+  const int code =
+    runOutOfCore(ranks, "Tetrahedralizing", open, arguments.Output, options, statistics);
+  if (code != Success)
+  {
+    return code;
   }
-  const double seconds = totalSeconds(made.Phases);
-  nlohmann::ordered_json json = { { "input", arguments.Inputs }, { "output", arguments.Output },
-    { "seconds", seconds }, { "peak_memory_bytes", peakMemoryBytes() } };
-  json.update(jsonOf(statisticsOf(made)));
-  reportLeftOut(made.LeftOut, made.ThinnedOut);
-  reportRun(arguments.Statistics, json, seconds);
-  printWarnings(warningsOf(made));
+  const RankUsage usage = gatherUsage(ranks);
+  if (ranks.isFirst())
+  {
+    reportMade(arguments, statistics, usage);
+  }
   return Success;
 }
 
@@ -275,7 +298,7 @@ void requireFitting(const Delaunay3DArguments& arguments)
 void addOptions(CLI::App& command, Delaunay3DArguments& arguments)
 {
   addRunOptions(command, arguments, "The tetrahedra", Use::WritesTetrahedra | Use::WritesPieces,
-    "With a .tipp output: the memory limit of the process, such as 512M (default: 2G)",
+    "With a .tipp output: the memory limit of each process, such as 512M (default: 2G)",
     "With a .tipp output");
   addBoundsOption(command, arguments.Columns);
   addThreadsOption(command, arguments.Threads);
@@ -290,11 +313,11 @@ int run(Delaunay3DArguments& arguments)
   requireFitting(arguments);
   arguments.Columns.InSpace = true;
   arguments.Columns.Threads = arguments.Threads;
-  if (arguments.makesPieces()) // by the first rank alone, without MPI
-  {
-    return isIdleRank() ? Success : runOutOfCore(arguments);
-  }
   const MpiSession session;
+  if (arguments.makesPieces())
+  {
+    return runInPieces(arguments, session.controller());
+  }
   return session.controller() ? runTogether(session.controller(),
                                   [&](Communicator& ranks) { triangulateShares(ranks, arguments); })
                               : runInMemory(arguments);

@@ -309,8 +309,13 @@ int runTogether(
   return Success;
 }
 
-int runOutOfCore(Communicator& ranks, const std::string& title, const OpenPoints& open,
-  const std::string& path, OutOfCoreOptions options, OutOfCoreStatistics& statistics)
+namespace
+{
+
+/// `run`: triangulateOutOfCoreOnRanks() or tetrahedralizeOutOfCoreOnRanks().
+template <typename Options, typename Statistics, typename Run>
+int runInPieces(Communicator& ranks, const std::string& title, const OpenPoints& open,
+  const std::string& path, Options& options, Statistics& statistics, const Run& run)
 {
   returnLargeBlocks();
   const bool isFirst = ranks.rank() == 0;
@@ -325,7 +330,7 @@ int runOutOfCore(Communicator& ranks, const std::string& title, const OpenPoints
   };
   try
   {
-    statistics = triangulateOutOfCoreOnRanks(ranks, openFirst, path, options);
+    statistics = run(ranks, openFirst, path, options);
   }
   catch (const RankFailure& failure)
   {
@@ -334,6 +339,21 @@ int runOutOfCore(Communicator& ranks, const std::string& title, const OpenPoints
   }
   bar.reset();
   return statistics.Aborted ? reportInterruptedRun(statistics.Kept) : Success;
+}
+
+} // namespace
+
+int runOutOfCore(Communicator& ranks, const std::string& title, const OpenPoints& open,
+  const std::string& path, OutOfCoreOptions options, OutOfCoreStatistics& statistics)
+{
+  return runInPieces(ranks, title, open, path, options, statistics, &triangulateOutOfCoreOnRanks);
+}
+
+int runOutOfCore(Communicator& ranks, const std::string& title, const OpenPoints& open,
+  const std::string& path, OutOfCoreOptions3 options, OutOfCoreStatistics3& statistics)
+{
+  return runInPieces(
+    ranks, title, open, path, options, statistics, &tetrahedralizeOutOfCoreOnRanks);
 }
 
 RankUsage gatherUsage(Communicator& ranks)

@@ -105,11 +105,16 @@ std::string describeCounts(const nlohmann::ordered_json& figures);
 void reportRun(const std::string& path, const nlohmann::ordered_json& figures, double seconds,
   const std::string& more = "");
 
-/// Calls triangulateOutOfCoreOnRanks() with a progress bar of this title, warnings, and Ctrl-C.
+///@{
+/// Calls triangulateOutOfCoreOnRanks() or tetrahedralizeOutOfCoreOnRanks() with a progress bar of
+/// this title, warnings, and Ctrl-C.
 /// `open` is called on all ranks. Returns Success on all ranks, or the exit code of a failed or
 /// interrupted run, after printing a message.
 int runOutOfCore(Communicator& ranks, const std::string& title, const OpenPoints& open,
   const std::string& path, OutOfCoreOptions options, OutOfCoreStatistics& statistics);
+int runOutOfCore(Communicator& ranks, const std::string& title, const OpenPoints& open,
+  const std::string& path, OutOfCoreOptions3 options, OutOfCoreStatistics3& statistics);
+///@}
 
 /// Returns a function that passes progress to a bar, if there is one, and returns false after
 /// Ctrl-C. `bar` must outlive the function.

@@ -4,7 +4,7 @@
 #include "RunTipp.h"
 
 #include "Files/IOError.h"
-#include "OutOfCore3D/OutOfCoreTetrahedralization.h"
+#include "OutOfCore/OutOfCoreTetrahedralization.h"
 #include "Partitioned/FinishedPieces.h"
 #include "Partitioned/PartitionedMesh.h"
 #include "Partitioned/ReadPiece.h"

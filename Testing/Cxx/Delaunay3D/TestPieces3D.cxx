@@ -5,9 +5,12 @@
 #include "PointsInSpace.h"
 #include "TemporaryFolder.h"
 
+#include "Npy/NpyFile.h"
+#include "OutOfCore/InputPasses.h"
+#include "OutOfCore/PiecePlan3.h"
 #include "OutOfCore/PieceResult.h"
-#include "OutOfCore3D/PiecePlan3.h"
-#include "OutOfCore3D/PieceRun3.h"
+#include "OutOfCore/PieceRun3.h"
+#include "Points/ReadPoints.h"
 #include "Predicates/ExactPredicates3.h"
 
 #include <gtest/gtest.h>
@@ -45,28 +48,31 @@ struct Planned
     const std::string& file)
     : Memory(1 << 20, piecePoints, words)
     , Stream(streamOf(points))
-    , Plan(*Stream, Memory, ignore)
+    , Passes(*this->Stream, nullptr,
+        { this->Memory.BlockPoints, this->Memory.SamplePoints, threads, [](std::int64_t) {} })
+    , Survey(this->Passes.survey())
+    , Plan(this->Survey, this->Memory, words)
+    , Points(this->Passes.spill(this->Survey, this->Plan, file))
   {
     this->Rows.Words = words;
     this->Rows.Z = 2;
     this->Rows.Attributes = { 3 };
-    this->Plan.divide(this->Memory, words);
-    this->Plan.spill(*this->Stream, file, this->Memory, threads, ignore);
   }
-
-  static void ignore(std::int64_t) {}
 
   std::vector<double> rowsOf(PartitionIndex piece) const
   {
-    std::vector<double> rows(words * std::size_t(this->Plan.points().count(piece)));
-    this->Plan.points().read(piece, rows.data());
+    std::vector<double> rows(words * std::size_t(this->Points->count(piece)));
+    this->Points->read(piece, rows.data());
     return rows;
   }
 
   MemoryPlan3 Memory;
   std::unique_ptr<PointStream> Stream;
+  InputPassesOf<PiecePlan3> Passes;
+  InputSurvey3 Survey;
   PointRowLayout Rows;
   PiecePlan3 Plan;
+  std::unique_ptr<SpilledPoints> Points;
 };
 
 /// The state of a run after its points have been spilled.
@@ -87,14 +93,16 @@ public:
 
   PieceWork3 work() const
   {
-    return { this->Plan, this->Plan.points(), this->Rows, this->Mesh, this->Results };
+    return { this->Plan, *this->Points, this->Rows, this->Mesh, this->Results,
+      this->Survey.Factor };
   }
 
-  void triangulate()
+  void triangulate() { this->triangulate(std::vector<char>(std::size_t(this->Plan.pieces()), 0)); }
+  void triangulate(
+    const std::vector<char>& isDone, const std::function<bool(double)>& progress = {})
   {
-    const std::vector<char> isDone(std::size_t(this->Plan.pieces()), 0);
-    EXPECT_TRUE(triangulatePieces(
-      this->work(), this->Memory, 2, [](std::int64_t) { return true; }, isDone));
+    Communicator alone(nullptr);
+    triangulatePieces(this->work(), this->Memory, 2, progress, alone, isDone);
   }
 
   std::vector<FinishedPiece> finish(const Report& report = {})
@@ -147,29 +155,28 @@ TEST(PiecePlan3, EverySpilledPointIsInTheBoxOfItsPiece)
     for (PartitionIndex piece = 0; piece < plan.pieces(); ++piece)
     {
       const auto index = std::size_t(piece);
-      EXPECT_GT(plan.points().count(piece), 0);
+      EXPECT_GT(planned.Points->count(piece), 0);
       const std::vector<double> rows = planned.rowsOf(piece);
       for (std::size_t at = 0; at < rows.size(); at += words)
       {
         const Point3 p{ rows[at], rows[at + 1], rows[at + 2] };
-        EXPECT_TRUE(
-          plan.box(PartitionIndex(index)).contains(p) && plan.regions()[index].contains(p))
+        EXPECT_TRUE(plan.box(PartitionIndex(index)).contains(p) && plan.Regions[index].contains(p))
           << kind;
         EXPECT_TRUE(p == points.at(std::size_t(rows[at + 3])));
         numbers.insert(rows[at + 3]);
       }
-      const SpilledPoints& spilled = plan.points();
+      const SpilledPoints& spilled = *planned.Points;
       EXPECT_EQ(piece, spilled.pieceOf(spilled.first(piece)));
       EXPECT_EQ(piece, spilled.pieceOf(spilled.first(piece) + spilled.count(piece) - 1));
       volume += volumeOf(plan.box(PartitionIndex(index)));
     }
     EXPECT_EQ(points.size(), numbers.size()) << kind;
-    EXPECT_NEAR(volumeOf(plan.survey().Bounds), volume, 1e-9 * volume) << kind;
+    EXPECT_NEAR(volumeOf(planned.Survey.Bounds), volume, 1e-9 * volume) << kind;
   }
 }
 
 /// The partitions that each cell meets.
-std::vector<std::vector<PartitionIndex>> metBy(const InitialMesh3& mesh)
+std::vector<std::vector<PartitionIndex>> metBy(const BoundaryCells<3>& mesh)
 {
   std::vector<std::vector<PartitionIndex>> met;
   for (std::size_t cell = 0; cell < mesh.Cells.size(); ++cell)
@@ -184,7 +191,7 @@ TEST(PiecePlan3, IsTheSameForAnyNumberOfThreads)
   const TemporaryFolder folder;
   const auto points = pointsInSpace("clustered", 4000);
   const Planned one(points, 150, 1, folder.path("one"));
-  const InitialMesh3 initial = one.Plan.initialMesh();
+  const BoundaryCells<3> initial = one.Plan.initialMesh();
   for (const int threads : { 2, 5 })
   {
     const Planned other(points, 150, threads, folder.path("other"));
@@ -193,7 +200,7 @@ TEST(PiecePlan3, IsTheSameForAnyNumberOfThreads)
     {
       EXPECT_TRUE(one.rowsOf(piece) == other.rowsOf(piece));
     }
-    const InitialMesh3 mesh = other.Plan.initialMesh();
+    const BoundaryCells<3> mesh = other.Plan.initialMesh();
     EXPECT_TRUE(initial.Cells == mesh.Cells);
     EXPECT_TRUE(metBy(initial) == metBy(mesh));
   }
@@ -204,46 +211,97 @@ TEST(PiecePlan3, ComesBackAsItWasSaved)
   const TemporaryFolder folder;
   auto points = pointsInSpace("clustered", 3000);
   points[7].y = std::nan("");
-  const Planned planned(points, 150, 2, folder.path("points"));
+  Planned planned(points, 150, 2, folder.path("points"));
   const PiecePlan3& plan = planned.Plan;
   SaveArchive saved;
+  saved(planned.Survey);
   plan.save(saved);
+  planned.Points->save(saved);
   const Bytes bytes = saved.take();
   LoadArchive archive(bytes);
-  const PiecePlan3 restored(archive, words, folder.path("points"));
+  const auto survey = archive.get<InputSurvey3>();
+  const PiecePlan3 restored(archive);
+  const SpilledPoints spilled(folder.path("points"), words, restored.pieces(), archive);
   EXPECT_EQ(0U, archive.left());
-  EXPECT_EQ(1, restored.survey().Rejected);
-  EXPECT_EQ(plan.survey().finite(), restored.survey().finite());
+  EXPECT_EQ(1, survey.Rejected);
+  EXPECT_EQ(planned.Survey.finite(), survey.finite());
   ASSERT_EQ(plan.pieces(), restored.pieces());
   for (PartitionIndex piece = 0; piece < plan.pieces(); ++piece)
   {
     EXPECT_EQ(plan.box(piece).Min, restored.box(piece).Min);
-    EXPECT_EQ(plan.regions()[std::size_t(piece)].Max, restored.regions()[std::size_t(piece)].Max);
+    EXPECT_EQ(plan.Regions[std::size_t(piece)].Max, restored.Regions[std::size_t(piece)].Max);
     const std::vector<double> rows = planned.rowsOf(piece);
     std::vector<double> again(rows.size());
-    ASSERT_EQ(plan.points().count(piece), restored.points().count(piece));
-    restored.points().read(piece, again.data());
+    ASSERT_EQ(planned.Points->count(piece), spilled.count(piece));
+    spilled.read(piece, again.data());
     EXPECT_TRUE(rows == again);
     const Point3 first{ rows[0], rows[1], rows[2] };
-    EXPECT_EQ(piece, restored.tiling().locate(first));
+    EXPECT_EQ(piece, restored.Pieces.locate(first));
   }
   EXPECT_TRUE(plan.initialMesh().Cells == restored.initialMesh().Cells);
   EXPECT_TRUE(metBy(plan.initialMesh()) == metBy(restored.initialMesh()));
 }
 
-TEST(PiecePlan3, IsRefusedWithSpilledPointsOfOtherPieces)
+TEST(PiecePlan3, SpilledPointsOfOtherPiecesAreRefused)
 {
   const TemporaryFolder folder;
   const auto points = pointsInSpace("uniform", 2000);
   const Planned planned(points, 300, 2, folder.path("points"));
   SaveArchive saved;
-  planned.Plan.save(saved);
+  planned.Points->save(saved);
   const Bytes bytes = saved.take();
   const Planned other(points, 900, 2, folder.path("points"));
   LoadArchive archive(bytes);
   fs::resize_file(folder.path("points.0"), fs::file_size(folder.path("points.0")) / 2);
-  expectIOError(
-    folder.path("points.0"), "shorter", [&] { PiecePlan3(archive, words, folder.path("points")); });
+  expectIOError(folder.path("points.0"), "shorter",
+    [&] { SpilledPoints(folder.path("points"), words, planned.Plan.pieces(), archive); });
+}
+
+/// Surveys and spills a stream in so many parts. Returns the saved plan.
+std::string planFromParts(PointStream& stream, std::int64_t cuts, const std::string& file)
+{
+  const std::int64_t count = stream.divisible();
+  const MemoryPlan3 memory(1 << 20, 150, 4);
+  const PassOptions options{ 700, memory.SamplePoints, 2, [](std::int64_t) {} };
+  const auto limitTo = [&](std::int64_t part)
+  { stream.limitTo(count * part / cuts, count * (part + 1) / cuts); };
+  std::vector<InputSurvey3> surveys;
+  for (std::int64_t part = 0; part < cuts; ++part)
+  {
+    limitTo(part);
+    surveys.push_back(surveyPart<3>(stream, count, options));
+  }
+  const InputSurvey3 survey = joinSurveys(surveys);
+  EXPECT_EQ(count, survey.Points);
+  PiecePlan3 plan(survey, memory, 4);
+  EXPECT_GT(plan.pieces(), 10);
+  std::vector<SpilledPart> parts;
+  for (std::int64_t part = 0; part < cuts; ++part)
+  {
+    limitTo(part);
+    parts.push_back(spillPart(stream, survey.Factor, plan, file, int(part), options));
+  }
+  placeInitialPoints(parts, survey, plan);
+  SaveArchive saved;
+  plan.save(saved);
+  const Bytes bytes = saved.take();
+  return std::string(bytes.begin(), bytes.end());
+}
+
+TEST(PiecePlan3, IsTheSameForAnyDivisionOfTheInput)
+{
+  const TemporaryFolder folder;
+  const auto points = pointsInSpace("lattice", 4000);
+  NpyWriter writer(folder.path("points.npy"), "<f8", { std::int64_t(points.size()), 3 });
+  writer.write(points.data(), points.size() * sizeof(Point3));
+  writer.close();
+  PointOptions inSpace;
+  inSpace.InSpace = true;
+  const auto stream = openPointStream({ folder.path("points.npy") }, inSpace);
+  ASSERT_EQ(std::int64_t(points.size()), stream->divisible());
+  const std::string whole = planFromParts(*stream, 1, folder.path("spilled"));
+  EXPECT_TRUE(whole == planFromParts(*stream, 2, folder.path("spilled")));
+  EXPECT_TRUE(whole == planFromParts(*stream, 5, folder.path("spilled")));
 }
 
 TEST(PiecePlan3, DamagedSpilledPointsAreRefused)
@@ -273,7 +331,8 @@ TEST(BorderSorter3, TheOwnerIsTheFirstPieceMet)
   const auto points = pointsInSpace("lattice", 2200);
   const Planned planned(points, 100, 1, folder.path("points"));
   const PiecePlan3& plan = planned.Plan;
-  BorderSorter3 sorter(plan);
+  BordersByOwner3 borders;
+  BorderSorter3 sorter(plan, borders);
   std::size_t most = 0;
   for (std::size_t i = 0; i + 4 <= 800; i += 4)
   {
@@ -295,8 +354,8 @@ TEST(BorderSorter3, TheOwnerIsTheFirstPieceMet)
     }
     std::sort(expected.begin(), expected.end());
     EXPECT_EQ(expected, sorter.findMet(corners));
-    BordersByOwner3 borders;
-    sorter.add(corners, expected, borders);
+    borders.clear();
+    sorter.add(corners, expected);
     ASSERT_EQ(1U, borders.size());
     EXPECT_EQ(std::size_t(expected.front()), plan.number(borders.begin()->first));
     expected.erase(expected.begin());
@@ -313,9 +372,9 @@ TEST(StoredResult3, IsReadAsWritten)
   const PieceResult3 result = makeResult();
   StoredResult3::write(folder.path("result"), result);
   const StoredResult3 stored(folder.path("result"));
-  const PieceInterior interior = stored.readInterior(run.Plan.points(), 1, true);
-  EXPECT_EQ(run.Plan.points().first(1), interior.First);
-  EXPECT_EQ(run.Plan.points().count(1), interior.OwnPoints);
+  const PieceInterior interior = stored.readInterior(*run.Points, 1, true);
+  EXPECT_EQ(run.Points->first(1), interior.First);
+  EXPECT_EQ(run.Points->count(1), interior.OwnPoints);
   EXPECT_EQ(11, interior.Points);
   EXPECT_EQ(12, interior.Cells);
   EXPECT_EQ(result.Interior.Checksums, interior.Checksums);
@@ -350,7 +409,7 @@ TEST(StoredResult3, IsRefusedIfAnyByteIsDamaged)
   const auto readAll = [&]
   {
     const StoredResult3 stored(path);
-    stored.readInterior(run.Plan.points(), 1, true);
+    stored.readInterior(*run.Points, 1, true);
     stored.readFigures();
     stored.readHullVertices();
     stored.readBorder(1);
@@ -411,14 +470,14 @@ TEST(PieceRun3, MakesThePiecesAgainThatAreNotDone)
   }
   const auto ignore = [](const std::string& sentence) { FAIL() << sentence; };
   EXPECT_EQ(isDone, verifyResults(run.work(), 2, {}, ignore));
-  std::int64_t told = 0;
-  const auto progress = [&told](std::int64_t done)
-  {
-    told = done;
-    return true;
-  };
-  EXPECT_TRUE(triangulatePieces(run.work(), run.Memory, 2, progress, isDone));
-  EXPECT_EQ(3000, told);
+  double told = 0;
+  run.triangulate(isDone,
+    [&told](double done)
+    {
+      told = done;
+      return true;
+    });
+  EXPECT_EQ(1, told);
   for (PartitionIndex piece = 0; piece < pieces; ++piece)
   {
     EXPECT_TRUE(results[std::size_t(piece)] == contentOf(run.work().resultPath(piece))) << piece;

@@ -5,6 +5,7 @@
 
 #include "Distributed/SharedInitialMesh.h"
 #include "Ranks/Archive.h"
+#include "Triangulation/InitialMesh.h"
 
 #include <set>
 
@@ -48,7 +49,7 @@ struct SharedScene
     keepOneOfEachPosition(this->Initial);
     std::vector<BoundaryVertex> all = this->Initial;
     all.insert(all.end(), this->Artificial.begin(), this->Artificial.end());
-    this->Whole = triangulateVertices(this->Boxes, all, 1);
+    this->Whole = triangulateVertices<2>(this->Boxes, all, 1);
   }
   SharedScene(const SharedScene&) = delete;
   SharedScene& operator=(const SharedScene&) = delete;

@@ -5,8 +5,9 @@
 #include "ScheduleTesting.h"
 
 #include "Engine/PartitionSchedule.h"
-#include "Triangulation/BoundaryTriangles.h"
+#include "Triangulation/BoundaryCells.h"
 #include "Triangulation/Dataflow.h"
+#include "Triangulation/InitialMesh.h"
 #include "Triangulation/Tiling.h"
 
 #include <algorithm>
@@ -30,7 +31,7 @@ struct DataflowScene
     , Initial(chooseInitialPoints(this->Tiles, this->Buckets, 8, 1))
   {
     this->Initial.insert(this->Initial.end(), this->Artificial.begin(), this->Artificial.end());
-    this->Mesh = triangulateVertices(this->Boxes, this->Initial, 1);
+    this->Mesh = triangulateVertices<2>(this->Boxes, this->Initial, 1);
   }
   DataflowScene(const std::string& set, std::size_t count, int columns, int rows)
     : DataflowScene(

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DataflowScene.h"
+#include "Triangulation/InitialMesh.h"
 
 namespace
 {
@@ -55,7 +56,7 @@ TEST(FinalBoundary, HullRepairCompletesTheTriangulation)
     vertices.push_back({ points[i], std::int64_t(i), tiles.locate(points[i]) });
   }
   Final final;
-  for (const BoundaryTriangle& triangle : listOf(triangulateVertices(tiles, vertices, 1)))
+  for (const BoundaryTriangle& triangle : listOf(triangulateVertices<2>(tiles, vertices, 1)))
   {
     final.add(triangle);
   }

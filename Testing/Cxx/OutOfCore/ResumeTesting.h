@@ -6,7 +6,7 @@
 
 #include "ExpectIOError.h"
 #include "Npy/NpyFile.h"
-#include "OutOfCore3D/OutOfCoreTetrahedralization.h"
+#include "OutOfCore/OutOfCoreTetrahedralization.h"
 
 #include <cmath>
 #include <cstdint>

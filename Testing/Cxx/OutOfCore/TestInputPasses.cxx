@@ -52,7 +52,7 @@ TEST(InputSurvey, IsTheSameForAnyDivisionOfTheInput)
     for (std::int64_t part = 0; part < cuts; ++part)
     {
       whole->limitTo(10001 * part / cuts, 10001 * (part + 1) / cuts);
-      parts.push_back(surveyPart(*whole, 10001, { 500, 1 << 10, 2, [](std::int64_t) {} }));
+      parts.push_back(surveyPart<2>(*whole, 10001, { 500, 1 << 10, 2, [](std::int64_t) {} }));
     }
     const InputSurvey survey = joinSurveys(parts);
     EXPECT_EQ(10001, survey.Points);
@@ -69,15 +69,15 @@ TEST(InputSurvey, IsTheSameForAnyDivisionOfTheInput)
 TEST(InputSurvey, PartsOnDifferentLinesAreNotCollinear)
 {
   InputSurvey a;
-  a.Line = { { 0, 0 }, { 1, 1 } };
+  a.Simplex = { { 0, 0 }, { 1, 1 } };
   InputSurvey b;
-  b.Line = { { 2, 2 }, { 3, 3 } };
+  b.Simplex = { { 2, 2 }, { 3, 3 } };
   InputSurvey c;
-  c.Line = { { 2, 2 }, { 3, 4 } };
+  c.Simplex = { { 2, 2 }, { 3, 4 } };
   std::vector<InputSurvey> on{ a, b };
-  EXPECT_TRUE(joinSurveys(on).Collinear);
+  EXPECT_EQ(1, joinSurveys(on).dimension());
   std::vector<InputSurvey> off{ a, b, c };
-  EXPECT_FALSE(joinSurveys(off).Collinear);
+  EXPECT_EQ(2, joinSurveys(off).dimension());
 }
 
 } // namespace

@@ -139,7 +139,7 @@ TEST(InputSurvey, CountsPointsAndTheirBounds)
   EXPECT_EQ(2, survey.Rejected);
   EXPECT_EQ(-3, survey.Bounds.Min.x);
   EXPECT_EQ(17, survey.Bounds.Max.y);
-  EXPECT_FALSE(survey.Collinear);
+  EXPECT_EQ(2, survey.dimension());
   EXPECT_EQ(1, survey.Factor);
 }
 
@@ -169,9 +169,9 @@ TEST(InputSurvey, DetectsPointsOnOneLine)
   {
     xy.insert(xy.end(), { double(i), 2.0 * i });
   }
-  EXPECT_TRUE(Steps(xy).Survey.Collinear);
+  EXPECT_EQ(1, Steps(xy).Survey.dimension());
   xy.back() = 1;
-  EXPECT_FALSE(Steps(xy).Survey.Collinear);
+  EXPECT_EQ(2, Steps(xy).Survey.dimension());
 }
 
 TEST(InputSurvey, ScalesCoordinatesThatAreFarFromOneByAPowerOfTwo)

@@ -8,6 +8,7 @@
 #include "Files/IOError.h"
 #include "Npy/NpyFile.h"
 #include "OutOfCore/OutOfCoreTriangulation.h"
+#include "OutOfCore/RunOnRanks.h"
 
 #include "vtkErrorCode.h"
 #include "vtkMultiProcessController.h"

@@ -4,7 +4,8 @@
 
 #include "ScheduleTesting.h"
 
-#include "Triangulation/BoundaryTriangles.h"
+#include "Triangulation/BoundaryCells.h"
+#include "Triangulation/InitialMesh.h"
 
 namespace tipp
 {
@@ -22,7 +23,7 @@ struct InitialScene
     , Vertices(chooseInitialPoints(this->Boxes, this->Buckets, 8, 1))
   {
     this->Vertices.insert(this->Vertices.end(), this->Artificial.begin(), this->Artificial.end());
-    this->Mesh = triangulateVertices(this->Boxes, this->Vertices, 1);
+    this->Mesh = triangulateVertices<2>(this->Boxes, this->Vertices, 1);
   }
 
   std::vector<PartitionIndex> partitionsWithPoints() const

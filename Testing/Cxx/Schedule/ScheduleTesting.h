@@ -5,7 +5,7 @@
 #include "Comparison.h"
 
 #include "Predicates/ExactPredicates.h"
-#include "Triangulation/BoundaryTriangles.h"
+#include "Triangulation/BoundaryCells.h"
 #include "Triangulation/PointBuckets.h"
 #include "Triangulation/PointsView.h"
 

@@ -2,6 +2,7 @@
 #include "InitialScene.h"
 
 #include "Triangulation/Dataflow.h"
+#include "Triangulation/InitialMesh.h"
 
 #include <algorithm>
 #include <random>
@@ -26,7 +27,7 @@ struct Enclosed
     {
       vertices.push_back({ points[i], std::int64_t(i), this->Boxes.locate(points[i]) });
     }
-    this->Final = listOf(triangulateVertices(this->Boxes, vertices, 1));
+    this->Final = listOf(triangulateVertices<2>(this->Boxes, vertices, 1));
   }
 
   Tiling Boxes;

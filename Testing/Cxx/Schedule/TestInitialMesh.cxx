@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "InitialScene.h"
+#include "Triangulation/InitialMesh.h"
 
 #include <algorithm>
 #include <cmath>
@@ -205,15 +206,15 @@ TEST(InitialMesh, IsTheDelaunayTriangulationOfItsVertices)
   }
   for (const int threads : { 1, 2, 5 })
   {
-    EXPECT_TRUE(sameTriangles(
-      xy, idsOf(listOf(triangulateVertices(scene.Boxes, numbered, threads))), delaunay(xy, all)));
+    EXPECT_TRUE(sameTriangles(xy,
+      idsOf(listOf(triangulateVertices<2>(scene.Boxes, numbered, threads))), delaunay(xy, all)));
   }
 }
 
 TEST(InitialMesh, IsInTheSameOrderForAnyNumberOfThreads)
 {
   const InitialScene scene("uniform", 1000, 4, 4);
-  const BoundaryTriangles more = triangulateVertices(scene.Boxes, scene.Vertices, 3);
+  const BoundaryTriangles more = triangulateVertices<2>(scene.Boxes, scene.Vertices, 3);
   ASSERT_EQ(scene.Mesh.size(), more.size());
   for (std::size_t i = 0; i < more.size(); ++i)
   {
@@ -248,7 +249,7 @@ TEST(InitialMesh, EqualInitialPointsAreOneVertex)
     vertices.push_back({ { 0.2, 0.3 }, id, 0 });
   }
   std::set<std::int64_t> used;
-  for (const BoundaryTriangle& t : listOf(triangulateVertices(tiling, vertices, 1)))
+  for (const BoundaryTriangle& t : listOf(triangulateVertices<2>(tiling, vertices, 1)))
   {
     used.insert({ t[0].Id, t[1].Id, t[2].Id });
   }
@@ -265,7 +266,7 @@ BoundaryTriangles initialMeshOfEight(const std::string& set)
     chooseInitialPoints(tiling, bucketPoints<std::int32_t>(points, tiling, 1), 8, 1);
   const std::vector<BoundaryVertex> artificial = makeArtificialPoints(tiling);
   vertices.insert(vertices.end(), artificial.begin(), artificial.end());
-  return triangulateVertices(tiling, vertices, 1);
+  return triangulateVertices<2>(tiling, vertices, 1);
 }
 
 TEST(PartitionsPay, ForPointsSpreadOverAnArea)

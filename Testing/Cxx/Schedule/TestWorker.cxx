@@ -3,6 +3,7 @@
 
 #include "ExactDisk.h"
 #include "Triangulation/Dataflow.h"
+#include "Triangulation/InitialMesh.h"
 
 #include <algorithm>
 #include <array>
@@ -352,7 +353,7 @@ std::size_t interiorCountWithCircle(double dx, double dy, double radius)
   const PartitionIndex middle = tiling.locate({ 6, 6 });
   auto buckets = bucketPoints<std::int32_t>(view(xy), tiling, 1);
   UnfinishedMesh mesh;
-  mesh.add(triangulateVertices(tiling, makeArtificialPoints(tiling), 1));
+  mesh.add(triangulateVertices<2>(tiling, makeArtificialPoints(tiling), 1));
   Worker<std::int32_t> worker(tiling, buckets);
   Boundary boundary(tiling);
   worker.triangulate(
@@ -417,7 +418,7 @@ TEST(Worker, AnInitialPointRepresentsLowerDuplicates)
     std::vector<BoundaryVertex> vertices = makeArtificialPoints(tiling);
     vertices.push_back({ { 0.3, 0.2 }, known, p });
     UnfinishedMesh mesh;
-    mesh.add(triangulateVertices(tiling, vertices, 1));
+    mesh.add(triangulateVertices<2>(tiling, vertices, 1));
     Worker<std::int32_t> worker(tiling, buckets);
     Boundary boundary(tiling);
     worker.triangulate(p, uniqueVertices(mesh.thoseMeeting(p)), tiling.box(p), boundary);

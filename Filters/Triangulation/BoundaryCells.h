@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef tippBoundaryTriangles_h
-#define tippBoundaryTriangles_h
+#ifndef tippBoundaryCells_h
+#define tippBoundaryCells_h
 
 #include "Engine/MetPartitions.h"
 #include "Parallel/ParallelFor.h"
 #include "Triangulation/PointBuckets.h"
+#include "Triangulation/Regions.h"
 #include "Triangulation/Tiling.h"
 #include "vtkTIPPFiltersModule.h"
 
@@ -33,8 +34,12 @@ struct VertexOf
 };
 
 using BoundaryVertex = VertexOf<Point2>;
+using Vertex3 = VertexOf<Point3>;
 
-using BoundaryTriangle = std::array<BoundaryVertex, 3>;
+/// A boundary cell, by its corners.
+template <int D>
+using BoundaryCell = std::array<VertexOf<Point<D>>, D + 1>;
+using BoundaryTriangle = BoundaryCell<2>;
 
 /// The positions of vertices, or of other points that have one.
 template <typename Vertex>
@@ -116,57 +121,36 @@ auto adjacentSets(const Kernel& kernel, const std::vector<std::uint32_t>& sets)
   return pairs;
 }
 
-/// Triangles, and for each the partitions that its circumdisk meets.
-struct BoundaryTriangles : MetPartitions
+/// Cells, and for each the partitions that its circumball meets.
+template <int D>
+struct BoundaryCells : MetPartitions
 {
-  using Corners = std::array<std::uint32_t, 3>; ///< indices into Vertices
+  using Corners = std::array<std::uint32_t, D + 1>; ///< indices into Vertices
 
-  std::vector<BoundaryVertex> Vertices; ///< each once; some may belong to no triangle
-  std::vector<Corners> Cells;           ///< triangles, counter-clockwise
+  std::vector<VertexOf<Point<D>>> Vertices; ///< each once; some may belong to no cell
+  std::vector<Corners> Cells;               ///< in positive orientation
 
   std::size_t size() const { return this->Cells.size(); }
-  BoundaryTriangle operator[](std::size_t i) const
+  BoundaryCell<D> operator[](std::size_t i) const
   {
-    const Corners& corners = this->Cells[i];
-    return { this->Vertices[corners[0]], this->Vertices[corners[1]], this->Vertices[corners[2]] };
+    BoundaryCell<D> cell;
+    std::transform(this->Cells[i].begin(), this->Cells[i].end(), cell.begin(),
+      [this](std::uint32_t corner) { return this->Vertices[corner]; });
+    return cell;
   }
 
-  /// Adds a triangle of vertices that are present or will be added; it meets the partitions
-  /// [metBegin, metEnd).
+  /// Adds a cell of vertices that are present or will be added; it meets the partitions [metBegin,
+  /// metEnd).
   void add(const Corners& corners, const PartitionIndex* metBegin, const PartitionIndex* metEnd)
   {
     this->Cells.push_back(corners);
     this->SetOf.push_back(this->Sets.number(metBegin, metEnd));
   }
-  /// Appends the triangles of `others`, which must have the same vertices.
-  void appendTriangles(const BoundaryTriangles& others);
+  /// Appends the cells of `others`, which must have the same vertices.
+  void append(const BoundaryCells& others);
 };
 
-class DelaunayKernel;
-
-/// The chosen partitions.
-struct RegionChoice
-{
-  const std::vector<char>& IsChosen; ///< by partition
-  Box2 Bounds;                       ///< contains their regions
-};
-
-/// Triangles found in a kernel. Their corners are the kernel's point indices; Mesh.Vertices is left
-/// empty, for the caller to set.
-struct KernelTriangles
-{
-  BoundaryTriangles Mesh;
-  std::vector<std::int32_t> Indices; ///< the same triangles, as the kernel identifies them
-  std::vector<PartitionIndex> Met;   ///< working memory
-
-  /// Adds a finite triangle if it meets a chosen region. Without `choice` it is always added.
-  void add(const DelaunayKernel& kernel, std::int32_t triangle, const Regions& regions,
-    const RegionChoice* choice);
-};
-
-/// Returns the kernel's finite triangles that meet a chosen region; all of them without `choice`.
-KernelTriangles findTriangles(
-  const DelaunayKernel& kernel, const Regions& regions, const RegionChoice* choice, int threads);
+using BoundaryTriangles = BoundaryCells<2>;
 
 /// Moves a bound outward by the margin, but by at least a few units in the last place: when
 /// coordinates are large and close together, rounding may remove the margin.
@@ -207,11 +191,6 @@ std::vector<BoundaryVertex> chooseInitialPoints(
   }
   return vertices;
 }
-
-/// The Delaunay triangulation of the vertices, with the regions that each triangle meets, and the
-/// pairs of sets that adjacent triangles meet.
-BoundaryTriangles triangulateVertices(
-  const Regions& regions, const std::vector<BoundaryVertex>& vertices, int threads);
 
 /// The limit of partitionsPay() in the plane, if a mesh with four times as many points is tried
 /// before partitions are given up. By measurement, circumdisks meet 2.7 partitions or more on

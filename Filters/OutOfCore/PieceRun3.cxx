@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "OutOfCore3D/PieceRun3.h"
+#include "OutOfCore/PieceRun3.h"
 
 #include "Engine/PartitionSchedule.h"
+#include "Engine/RankEngine.h"
 #include "Files/IOError.h"
 #include "OutOfCore/FinishPieces.h"
-#include "Parallel/ParallelFor.h"
+#include "Parallel/Sort.h"
 #include "Predicates/ExactPredicates3.h"
 
 #include <algorithm>
@@ -19,7 +20,7 @@
 namespace tipp
 {
 
-const std::vector<std::int32_t>& BorderSorter3::findMet(const std::array<Vertex3, 4>& corners)
+const std::vector<std::int32_t>& BorderSorter3::findMet(const BoundaryCell<3>& corners)
 {
   Box3 bounds = Box3::empty();
   for (const Vertex3& v : corners)
@@ -27,7 +28,7 @@ const std::vector<std::int32_t>& BorderSorter3::findMet(const std::array<Vertex3
     bounds.extend(v.Position);
   }
   this->Met.clear();
-  this->Plan.tiling().visitMet(bounds,
+  this->Plan.Pieces.visitNear(bounds,
     [&](PartitionIndex piece)
     {
       if (tetrahedronMeetsBox(corners[0].Position, corners[1].Position, corners[2].Position,
@@ -44,11 +45,10 @@ const std::vector<std::int32_t>& BorderSorter3::findMet(const std::array<Vertex3
   return this->Met;
 }
 
-void BorderSorter3::add(const std::array<Vertex3, 4>& corners, const std::vector<std::int32_t>& met,
-  BordersByOwner3& borders) const
+void BorderSorter3::add(const BoundaryCell<3>& corners, const std::vector<std::int32_t>& met)
 {
   const auto owner = PartitionIndex(this->Plan.number(met.front()));
-  borders[owner].add({ corners[0].Id, corners[1].Id, corners[2].Id, corners[3].Id }, met);
+  this->Borders[owner].add({ corners[0].Id, corners[1].Id, corners[2].Id, corners[3].Id }, met);
 }
 
 namespace
@@ -61,8 +61,8 @@ struct Cells : public FinalCellConsumer3
     : Piece(piece)
     , Number(std::int32_t(work.Plan.number(piece)))
     , First(work.Points.first(piece))
-    , Sorter(work.Plan)
     , IsOnInterface(std::size_t(work.Points.count(piece)), 0)
+    , Sorter(work.Plan, this->Borders)
   {
   }
 
@@ -74,7 +74,7 @@ struct Cells : public FinalCellConsumer3
     }
   }
 
-  void add(const std::array<Vertex3, 4>& corners) override
+  void add(const BoundaryCell<3>& corners) override
   {
     const bool isHull = takeHullVertices(corners, this->HullVertices);
     if (!isHull)
@@ -88,7 +88,7 @@ struct Cells : public FinalCellConsumer3
         this->addInside({ corners[0].Id, corners[1].Id, corners[2].Id, corners[3].Id });
         return;
       }
-      this->Sorter.add(corners, met, this->Borders);
+      this->Sorter.add(corners, met);
     }
     for (const Vertex3& v : corners)
     {
@@ -107,97 +107,138 @@ struct Cells : public FinalCellConsumer3
   const PartitionIndex Piece;
   const std::int32_t Number;
   const std::int64_t First;
-  BorderSorter3 Sorter;
   std::vector<std::int32_t> Interior; ///< four indices of the piece's points each
   std::vector<std::uint8_t> IsOnInterface;
   std::vector<Vertex3> HullVertices;
   BordersByOwner3 Borders;
+  BorderSorter3 Sorter;
   SentMessages3 Sent;
 };
 
-/// Loads pieces, as many at a time as fit in memory, triangulates them in threads, and writes their
-/// results.
-class PieceRun3
+/// A rank's part of a triangulation in space out of core. Its threads load pieces, as many at a
+/// time as fit in memory, triangulate them, and write their results.
+///
+/// Pieces are assigned to ranks in order. A piece's messages to others are in its result, which all
+/// ranks can read, so ranks only tell each other which pieces are done.
+class PieceRun3 : private RankEngine<VertexMessage3>
 {
 public:
   PieceRun3(const PieceWork3& work, const MemoryPlan3& memory, int threads,
-    std::function<bool(std::int64_t)> progress)
-    : Work(work)
+    const std::function<bool(double)>& progress, Communicator& ranks)
+    : RankEngine(
+        ranks, std::size_t(work.Plan.pieces()), std::size_t(work.Points.starts().back()), progress)
+    , Work(work)
     , Memory(memory)
     , Threads(threads)
-    , Progress(std::move(progress))
+    , Initial(this->Inboxes.size())
+    , Results(this->Inboxes.size())
   {
   }
 
   /// See triangulatePieces().
-  bool run(const std::vector<char>& isDone)
+  void run(const std::vector<char>& isDone)
   {
-    const PiecePlan3& plan = this->Work.Plan;
-    this->Results.resize(isDone.size());
     // Every piece has points, because its box holds points of the sample.
     const std::vector<char> isUsed(isDone.size(), 1);
-    this->Initial.resize(isDone.size());
-    if (plan.pieces() == 1)
+    if (isDone.size() == 1)
     {
-      return this->makePieces(isDone, PartitionOrder(isUsed, ConflictGraph(1)));
+      this->makePieces(isDone, PartitionOrder(isUsed, ConflictGraph(1)));
+      return;
     }
-    const InitialMesh3 mesh = plan.initialMesh();
+    const BoundaryCells<3> mesh = this->Work.Plan.initialMesh();
     const PartitionOrder order(isUsed, mesh);
     for (auto& [to, message] : sendInitialMesh(mesh, order))
     {
       this->Initial[std::size_t(to)] = std::move(message);
     }
-    return this->makePieces(isDone, order);
+    this->makePieces(isDone, order);
   }
 
 private:
-  /// Marks pieces that are done: later pieces find their messages in the results.
-  void skipDone(const std::vector<char>& isDone, ReadyPartitions& ready)
+  std::int32_t ownerOf(PartitionIndex piece) const override
   {
+    return std::int32_t(this->Order->position(piece) % std::size_t(this->Ranks.size()));
+  }
+  ReadyPartitions& source() override { return *this->Ready; }
+
+  /// The first rank is told of all pieces, because it finishes them.
+  std::vector<std::int32_t> recipientsOf(PartitionIndex piece) const override
+  {
+    std::vector<std::int32_t> ranks = RankEngine::recipientsOf(piece);
+    ranks.push_back(0);
+    sortUnique(ranks);
+    return ranks;
+  }
+
+  void setDone(PartitionIndex piece) override
+  {
+    // Once this rank's pieces are done, it does not need the result, and the first rank may have
+    // removed it.
+    if (this->LeftPartitions > 0)
+    {
+      this->openResult(piece);
+    }
+    this->PointsDone += std::size_t(this->Work.Points.count(piece));
+    this->Ready->finish(piece);
+  }
+
+  /// Reads where in a piece's result its messages are.
+  void openResult(PartitionIndex piece)
+  {
+    auto stored = std::make_unique<StoredResult3>(this->Work.resultPath(piece));
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    this->Results[std::size_t(piece)] = std::move(stored);
+  }
+
+  void makePieces(const std::vector<char>& isDone, const PartitionOrder& order)
+  {
+    this->Order = &order;
+    std::vector<char> isPending(isDone.size(), 0);
+    std::vector<PartitionIndex> left;
+    for (const PartitionIndex piece : order.sequence())
+    {
+      const auto index = std::size_t(piece);
+      isPending[index] = char(!isDone[index] && this->ownerOf(piece) == this->Ranks.rank());
+      if (!isDone[index])
+      {
+        left.push_back(piece);
+      }
+    }
+    this->begin(order, left);
+    this->Ready =
+      std::make_unique<ReadyPartitions>(order, ReadyPartitions::Waits::ForEarlier, isPending);
     for (std::size_t piece = 0; piece < isDone.size(); ++piece)
     {
-      if (isDone[piece])
+      if (isDone[piece]) // later pieces find its messages in its result
       {
-        const auto index = PartitionIndex(piece);
-        this->Results[piece] = std::make_unique<StoredResult3>(this->Work.resultPath(index));
         this->Initial[piece] = {};
-        this->PointsDone += this->Work.Points.count(index);
-        ready.finish(index);
+        this->setDone(PartitionIndex(piece));
+      }
+    }
+    this->Ranks.barrier(); // a rank that is not set up yet could not handle messages
+    std::vector<int> threads(std::size_t(this->Threads));
+    this->runThreads(threads, [this](int) { this->work(); });
+  }
+
+  void work()
+  {
+    for (PartitionIndex piece = this->take(); piece != NoPartition; piece = this->take())
+    {
+      const std::uint64_t bytes = this->takeMemory(piece);
+      if (!this->Ready->isStopped())
+      {
+        this->make(piece);
+        {
+          const std::lock_guard<std::mutex> lock(this->Mutex);
+          this->LoadedBytes -= bytes;
+        }
+        this->finish(piece, {}, std::size_t(this->Work.Points.count(piece)));
       }
     }
   }
 
-  /// Returns false if the run was stopped.
-  bool makePieces(const std::vector<char>& isDone, const PartitionOrder& order)
-  {
-    this->Order = &order;
-    std::vector<char> isPending;
-    isPending.reserve(isDone.size());
-    for (const char done : isDone)
-    {
-      isPending.push_back(char(done == 0));
-    }
-    ReadyPartitions ready(order, ReadyPartitions::Waits::ForEarlier, isPending);
-    this->skipDone(isDone, ready);
-    runWorkers(ready, this->Threads,
-      [&](int)
-      {
-        for (PartitionIndex piece = ready.take(); piece >= 0; piece = ready.take())
-        {
-          const std::uint64_t bytes = this->takeMemory(piece, ready);
-          if (!ready.isStopped())
-          {
-            this->make(piece);
-            ready.finish(piece);
-            this->finish(piece, bytes, ready);
-          }
-        }
-      });
-    return !ready.isStopped();
-  }
-
   /// Waits until there is memory for the piece, or the run is stopped. Returns the reserved bytes.
-  std::uint64_t takeMemory(PartitionIndex piece, const ReadyPartitions& ready)
+  std::uint64_t takeMemory(PartitionIndex piece)
   {
     constexpr std::chrono::milliseconds pause(10);
     std::unique_lock<std::mutex> lock(this->Mutex);
@@ -216,7 +257,7 @@ private:
         " points of others, and " + std::to_string(bytes / 800000 + 1) +
         " MB in all; allow more memory.");
     }
-    while (!ready.isStopped() && this->LoadedBytes > 0 &&
+    while (!this->Ready->isStopped() && this->LoadedBytes > 0 &&
       this->LoadedBytes + bytes > this->Memory.PieceBytes)
     {
       this->Changed.wait_for(lock, pause);
@@ -249,7 +290,7 @@ private:
     const PiecePlan3& plan = this->Work.Plan;
     const auto count = std::size_t(this->Work.Points.count(piece));
     const std::size_t words = this->Work.Rows.Words;
-    const double factor = plan.survey().Factor;
+    const double factor = this->Work.Factor;
     const auto z = std::size_t(this->Work.Rows.Z);
     Buffer<double> rows(count * words);
     this->Work.Points.read(piece, rows.data());
@@ -264,7 +305,7 @@ private:
         const double* const row = rows.data() + i * words;
         points[i] = { row[0] * factor, row[1] * factor, row[z] * factor };
       }
-      Worker3 worker(plan.regions(), *this->Order, InsideCells::OfRegion);
+      Worker3 worker(plan.Regions, *this->Order, InsideCells::OfRegion);
       const PartitionPoints3 own{ piece, points.data(), count, nullptr, cells.First };
       cells.Sent = worker.triangulate(own, this->readInbox(piece), cells);
       duplicates = worker.duplicates();
@@ -279,9 +320,7 @@ private:
     }
     result.Figures = figures;
     StoredResult3::write(this->Work.resultPath(piece), result);
-    auto stored = std::make_unique<StoredResult3>(this->Work.resultPath(piece));
-    const std::lock_guard<std::mutex> lock(this->Mutex);
-    this->Results[std::size_t(piece)] = std::move(stored);
+    this->openResult(piece);
   }
 
   /// Writes the interior's part of the piece's file in the mesh. Returns the remaining results.
@@ -317,31 +356,15 @@ private:
     return result;
   }
 
-  /// Frees the memory of a piece that is done, and reports progress.
-  void finish(PartitionIndex piece, std::uint64_t bytes, ReadyPartitions& ready)
-  {
-    const std::lock_guard<std::mutex> lock(this->Mutex);
-    this->LoadedBytes -= bytes;
-    this->PointsDone += this->Work.Points.count(piece);
-    if (!ready.isStopped() && !this->Progress(this->PointsDone))
-    {
-      ready.stop();
-    }
-    this->Changed.notify_all();
-  }
-
   const PieceWork3 Work;
   const MemoryPlan3& Memory;
   const int Threads;
-  const std::function<bool(std::int64_t)> Progress;
-  const PartitionOrder* Order = nullptr;
+  std::unique_ptr<ReadyPartitions> Ready;
   std::vector<VertexMessage3> Initial; ///< by piece: its message from the initial mesh
 
-  std::mutex Mutex; ///< protects the members below
-  std::condition_variable Changed;
+  // Protected by Mutex.
   std::vector<std::unique_ptr<StoredResult3>> Results; ///< by piece; null: it is not done
   std::uint64_t LoadedBytes = 0;
-  std::int64_t PointsDone = 0;
 };
 
 class PieceFinisher3 : public PieceFinisherOf<PieceWork3, 4>
@@ -360,10 +383,8 @@ public:
         " points at the convex hull, which take " + std::to_string(bytes / 1000000 + 1) +
         " MB; allow more memory.");
     }
-    BorderSorter3 sorter(work.Plan);
-    repairHull(std::move(hull), work.Plan.artificial(),
-      [&](const std::array<Vertex3, 4>& corners)
-      { sorter.add(corners, sorter.findMet(corners), this->Late); });
+    BorderSorter3 sorter(work.Plan, this->Late);
+    repairHull(std::move(hull), work.Plan.Artificial, sorter);
   }
 
 protected:
@@ -379,10 +400,10 @@ protected:
 
 } // namespace
 
-bool triangulatePieces(const PieceWork3& work, const MemoryPlan3& memory, int threads,
-  const std::function<bool(std::int64_t)>& progress, const std::vector<char>& isDone)
+void triangulatePieces(const PieceWork3& work, const MemoryPlan3& memory, int threads,
+  const std::function<bool(double)>& progress, Communicator& ranks, const std::vector<char>& isDone)
 {
-  return PieceRun3(work, memory, threads, progress).run(isDone);
+  PieceRun3(work, memory, threads, progress, ranks).run(isDone);
 }
 
 std::vector<FinishedPiece> finishPieces(const PieceWork3& work, std::uint64_t limit, int threads,

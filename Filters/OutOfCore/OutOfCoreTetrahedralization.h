@@ -4,6 +4,7 @@
 
 #include "OutOfCore/OutOfCoreOptions.h"
 #include "Points/ReadPoints.h"
+#include "Ranks/Communicator.h"
 #include "vtkTIPPFiltersModule.h"
 
 #include <cstdint>
@@ -33,6 +34,10 @@ struct OutOfCoreStatistics3 : OutOfCoreRunStatistics
 /// IOError, also if all points are in one plane.
 VTKTIPPFILTERS_EXPORT OutOfCoreStatistics3 tetrahedralizeOutOfCore(
   PointStream& points, const std::string& path, const OutOfCoreOptions3& options = {});
+
+/// Runs tetrahedralizeOutOfCore() on all ranks, as triangulateOutOfCoreOnRanks() does in the plane.
+VTKTIPPFILTERS_EXPORT OutOfCoreStatistics3 tetrahedralizeOutOfCoreOnRanks(Communicator& ranks,
+  const OpenPoints& open, const std::string& path, const OutOfCoreOptions3& options);
 
 } // namespace tipp
 

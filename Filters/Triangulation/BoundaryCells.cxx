@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Triangulation/BoundaryTriangles.h"
+#include "Triangulation/BoundaryCells.h"
 
-#include "Kernel/DelaunayKernel.h"
 #include "Kernel/Pairs.h"
 
 #include <cmath>
@@ -10,7 +9,8 @@
 namespace tipp
 {
 
-void BoundaryTriangles::appendTriangles(const BoundaryTriangles& others)
+template <int D>
+void BoundaryCells<D>::append(const BoundaryCells& others)
 {
   std::vector<std::uint32_t> numbers;
   for (std::uint32_t set = 0; set < others.Sets.size(); ++set)
@@ -158,69 +158,6 @@ std::vector<std::size_t> chooseInitialPoints(
   return chosen;
 }
 
-void KernelTriangles::add(const DelaunayKernel& kernel, std::int32_t triangle,
-  const Regions& regions, const RegionChoice* choice)
-{
-  const auto [a, b, c] = kernel.corners(triangle);
-  const Circumdisk disk(kernel.point(a), kernel.point(b), kernel.point(c));
-  if (choice && !disk.meets(choice->Bounds))
-  {
-    return;
-  }
-  std::vector<PartitionIndex>& met = this->Met;
-  met.clear();
-  regions.visitMet(disk, [&met](PartitionIndex p) { met.push_back(p); });
-  if (!choice ||
-    std::any_of(met.begin(), met.end(),
-      [choice](PartitionIndex p) { return choice->IsChosen[std::size_t(p)] != 0; }))
-  {
-    this->Mesh.add({ kernel.pointIndex(a), kernel.pointIndex(b), kernel.pointIndex(c) }, met.data(),
-      met.data() + met.size());
-    this->Indices.push_back(triangle);
-  }
-}
-
-KernelTriangles findTriangles(
-  const DelaunayKernel& kernel, const Regions& regions, const RegionChoice* choice, int threads)
-{
-  std::vector<KernelTriangles> parts(static_cast<std::size_t>(threads));
-  parallelFor(threads, threads,
-    [&](std::int64_t i)
-    {
-      KernelTriangles part; // local: threads do not write to the same cache line
-      const auto [begin, end] = evenShare(kernel.triangleCount(), int(i), threads);
-      for (std::size_t number = begin; number < end; ++number)
-      {
-        const DelaunayKernel::Index t = DelaunayKernel::triangle(number);
-        if (!kernel.isInfinite(t))
-        {
-          part.add(kernel, t, regions, choice);
-        }
-      }
-      parts[std::size_t(i)] = std::move(part);
-    });
-  KernelTriangles all = std::move(parts.front());
-  std::for_each(parts.begin() + 1, parts.end(),
-    [&all](const KernelTriangles& part)
-    {
-      all.Mesh.appendTriangles(part.Mesh);
-      all.Indices.insert(all.Indices.end(), part.Indices.begin(), part.Indices.end());
-    });
-  return all;
-}
-
-BoundaryTriangles triangulateVertices(
-  const Regions& regions, const std::vector<BoundaryVertex>& vertices, int threads)
-{
-  const std::vector<Point2> points = positionsOf(vertices);
-  DelaunayKernel kernel;
-  kernel.insert(points.data(), points.size());
-  BoundaryTriangles all = findTriangles(kernel, regions, nullptr, threads).Mesh;
-  all.Vertices = vertices;
-  all.AdjacentSets = adjacentSets<3>(kernel, setsByNumber(kernel, all.SetOf));
-  return all;
-}
-
 bool partitionsPay(std::int64_t cells, std::int64_t met, double most)
 {
   return double(met) <= most * double(cells);
@@ -238,5 +175,8 @@ bool partitionsPay(const MetPartitions& initialMesh, double most)
   }
   return partitionsPay(cells, met, most);
 }
+
+template struct BoundaryCells<2>;
+template struct BoundaryCells<3>;
 
 } // namespace tipp

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "OutOfCore/OutOfCoreTetrahedralization.h"
+
+#include "Files/IOError.h"
+#include "OutOfCore/OutOfCoreRun.h"
+#include "OutOfCore/PieceRun3.h"
+#include "OutOfCore/RunOnRanks.h"
+#include "OutOfCore/RunSetup3.h"
+
+#include <vector>
+
+namespace tipp
+{
+
+/// The statistics of the whole mesh, without those of this process.
+template <typename Archive>
+void serialize(Archive& archive, OutOfCoreStatistics3& statistics)
+{
+  archive(statistics.Points, statistics.Tetrahedra, statistics.Rejected, statistics.LeftOut,
+    statistics.ThinnedOut, statistics.Pieces, static_cast<PieceFigures&>(statistics),
+    statistics.SpilledBytes, statistics.MeshBytes);
+}
+
+namespace
+{
+
+/// Returns a text that is equal for runs that make the same mesh from the same input with the same
+/// options.
+std::string identityInSpace(const PointStream& input, const OutOfCoreOptions3& options)
+{
+  std::string text = "TIPP out of core in space 4\n" + input.identity();
+  for (const std::string& column : input.columns())
+  {
+    text += column + "\n";
+  }
+  return text + std::to_string(options.PiecePoints) + (options.MapDuplicates ? " mapped" : "") +
+    (options.Neighbors ? " linked" : "") + "\n" + options.Scratch;
+}
+
+class TetrahedralizationRun : OutOfCoreRun<RunSetup3, OutOfCoreOptions3, OutOfCoreStatistics3>
+{
+public:
+  TetrahedralizationRun(PointStream& points, const std::string& path,
+    const OutOfCoreOptions3& options, Communicator* ranks)
+    : OutOfCoreRun(points, path, options, identityInSpace(points, options), ranks)
+    , Memory(options.MemoryLimit, options.PiecePoints, 3 + points.columns().size())
+  {
+    requireFolderName(path);
+    this->Setup.Mesh.Path = this->Pending.temporaryPath();
+  }
+
+  OutOfCoreStatistics3 run()
+  {
+    return this->perform(
+      [this]
+      {
+        this->requireSharedFolders();
+        if (!this->resume([this](LoadArchive& archive) { this->load(archive); }))
+        {
+          this->prepare();
+        }
+        if (!this->Record.isWhole())
+        {
+          this->triangulate();
+          this->numberAndLink(this->Setup.Mesh, this->Memory.PieceBytes);
+          this->Statistics.Tetrahedra = this->Setup.Mesh.Cells;
+          this->publish(this->Setup.Mesh);
+        }
+        this->putInPlace();
+      });
+  }
+
+private:
+  void load(LoadArchive& archive)
+  {
+    this->Setup.load(archive, this->Scratch.points());
+    this->describePlan();
+  }
+
+  void prepare()
+  {
+    this->Record.keep(false);
+    this->Scratch.clear();
+    this->Setup.describeColumns(this->Input.columns(), this->Options);
+    this->survey(this->Memory);
+    this->requireSpace();
+    InputSurvey3& survey = this->Setup.Survey;
+    this->Setup.Plan = std::make_unique<PiecePlan3>(survey, this->Memory, this->Setup.Rows.Words);
+    std::vector<SampledPointOf<Point3>>().swap(survey.Sample); // assigning {} would keep the memory
+    this->Setup.describeMesh();
+    this->endPhase("survey");
+    this->spill(this->Memory, 0.1);
+    this->recordSpilled();
+    this->describePlan();
+  }
+
+  /// Sets the statistics that are known once the points are spilled.
+  void describePlan()
+  {
+    const InputSurvey3& survey = this->Setup.Survey;
+    this->Statistics.Points = survey.Points;
+    this->Statistics.Rejected = survey.Rejected;
+    this->Statistics.LeftOut = survey.LeftOut;
+    this->Statistics.ThinnedOut = survey.ThinnedOut;
+    this->Statistics.Pieces = this->Setup.Plan->pieces();
+    this->Statistics.SpilledBytes = this->Setup.Spilled->bytes();
+  }
+
+  void requireSpace() const
+  {
+    const auto points = std::uint64_t(this->Setup.Survey.finite());
+    // Uniform points give 6.77 tetrahedra per point.
+    const std::uint64_t cells = 7 * (16 + 4 + 1 + 8 + (this->Options.Neighbors ? 32 : 0));
+    // Bytes per point of results, for pieces of 250,000 points.
+    constexpr std::uint64_t results = 100;
+    this->Scratch.requireSpace(this->Path,
+      points * (24 + 8 + 1 + 8 * this->Setup.Rows.Attributes.size() + cells),
+      points * (8 * this->Setup.Rows.Words + results));
+  }
+
+  void triangulate()
+  {
+    this->makePieces(this->Memory, 0.1, 0.75);
+    this->endPhase("triangulate");
+    this->Finished = finishPieces(this->Setup.work(), this->Memory.PieceBytes, this->Threads,
+      this->reportPart(0.85, 0.05), this->Statistics);
+    this->endPhase("borders");
+  }
+
+  const MemoryPlan3 Memory;
+};
+
+} // namespace
+
+OutOfCoreStatistics3 tetrahedralizeOutOfCore(
+  PointStream& points, const std::string& path, const OutOfCoreOptions3& options)
+{
+  return TetrahedralizationRun(points, path, options, nullptr).run();
+}
+
+OutOfCoreStatistics3 tetrahedralizeOutOfCoreOnRanks(Communicator& ranks, const OpenPoints& open,
+  const std::string& path, const OutOfCoreOptions3& options)
+{
+  return runWithHelp<TetrahedralizationRun, RunSetup3>(ranks, open, path, options);
+}
+
+} // namespace tipp
