@@ -70,7 +70,7 @@ private:
   std::vector<RunningSum> Sums;
 };
 
-/// Returns a covered share, with the roundings of a whole one removed.
+/// Returns a covered share. One that rounding alone makes larger than 1 is 1.
 inline double coveredShare(double covered, double whole)
 {
   constexpr double rounding = 1e-9;

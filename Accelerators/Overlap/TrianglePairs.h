@@ -21,13 +21,10 @@ using CommonPart = ConvexPart<Values>;
 /// result is 0 only if the points are on one line.
 inline double signedSide(Point2 a, Point2 b, Point2 p)
 {
-  // The filter is that of orientation(), of which this is a cyclic permutation.
-  constexpr double relative = 3.3306690738754716e-16;
-  constexpr double absolute = 1e-300;
   const double left = (b.x - a.x) * (p.y - a.y);
   const double right = (b.y - a.y) * (p.x - a.x);
   const double determinant = left - right;
-  if (std::fabs(determinant) > relative * (std::fabs(left) + std::fabs(right)) + absolute)
+  if (std::fabs(determinant) > orientationErrorBound(left, right))
   {
     return determinant;
   }
@@ -40,7 +37,6 @@ inline double signedSide(Point2 a, Point2 b, Point2 p)
 /// if they are.
 inline bool isBeyond(const PlaneTriangle& edges, const PlaneTriangle& corners)
 {
-  constexpr double relative = 3.3306690738754716e-16;
   for (int k = 0; k < 3; ++k)
   {
     const Point2 a = edges.At[k];
@@ -50,7 +46,7 @@ inline bool isBeyond(const PlaneTriangle& edges, const PlaneTriangle& corners)
     {
       const double left = along.x * (corners.At[i].y - a.y);
       const double right = along.y * (corners.At[i].x - a.x);
-      beyond += int(left - right < -relative * (std::fabs(left) + std::fabs(right)));
+      beyond += int(left - right < -orientationErrorBound(left, right));
     }
     if (beyond == 3)
     {

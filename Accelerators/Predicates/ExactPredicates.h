@@ -14,9 +14,9 @@ namespace tipp
 /// Returns orientation() by exact arithmetic, for callers whose own filter has failed.
 VTKTIPPACCELERATORS_EXPORT int orientationExact(Point2 a, Point2 b, Point2 c);
 
-/// Exact for all finite coordinates: +1 if a, b, c turn counter-clockwise, -1 if clockwise, 0 if
-/// collinear.
-inline int orientation(Point2 a, Point2 b, Point2 c)
+/// The error of left - right, where both are products of two differences of coordinates, in
+/// doubles. Infinite or NaN after an overflow.
+inline double orientationErrorBound(double left, double right)
 {
   // (3 + 16 e) e, e = 2^-53: Shewchuk, Adaptive Precision Floating-Point Arithmetic, 1997,
   // section 4.3.
@@ -24,10 +24,17 @@ inline int orientation(Point2 a, Point2 b, Point2 c)
   // The bound assumes no underflow. Three roundings below the normal range (two products, the
   // bound) add at most 2^-1075 each; a difference never underflows.
   constexpr double absolute = 1e-300;
+  return relative * (std::fabs(left) + std::fabs(right)) + absolute;
+}
+
+/// Exact for all finite coordinates: +1 if a, b, c turn counter-clockwise, -1 if clockwise, 0 if
+/// collinear.
+inline int orientation(Point2 a, Point2 b, Point2 c)
+{
   const double left = (a.x - c.x) * (b.y - c.y);
   const double right = (a.y - c.y) * (b.x - c.x);
   const double determinant = left - right;
-  const double bound = relative * (std::fabs(left) + std::fabs(right)) + absolute;
+  const double bound = orientationErrorBound(left, right);
   // After an overflow the bound is infinite or NaN, and the comparison is false. The sign is found
   // without a branch, which would be mispredicted half of the time.
   return std::fabs(determinant) > bound ? signOf(determinant) : orientationExact(a, b, c);

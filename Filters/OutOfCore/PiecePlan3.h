@@ -77,8 +77,9 @@ struct VTKTIPPFILTERS_EXPORT PiecePlan3
   std::size_t number(PartitionIndex piece) const { return numberInMesh(piece, this->pieces()); }
   static PartitionIndex pieceOf(const InitialPointOf<3>& p) { return p.Partition; }
 
-  /// Adds to the indices of Extremes those of the pieces' first points, sets Regions, and places
-  /// the artificial points around them. Throws IOError if doubles cannot enclose the regions.
+  /// Completes the plan once the points are spilled: sets Regions and the artificial points around
+  /// them. `starts` has the index of each piece's first point, which is added to the indices in
+  /// Extremes. Throws IOError if doubles cannot enclose the regions.
   void encloseExtremes(const std::vector<std::int64_t>& starts);
 
   /// Returns the initial mesh, whose ids are indices among all spilled points. Call it once the

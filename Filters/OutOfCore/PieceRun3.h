@@ -23,8 +23,8 @@ using PieceResult3 = PieceResultOf<4, VertexMessage3>;
 using StoredResult3 = StoredResultOf<4, VertexMessage3>;
 using PieceWork3 = PieceWorkOf<PiecePlan3, StoredResult3>;
 
-/// Adds border tetrahedra to those of the piece that owns them: the first in the mesh of the pieces
-/// that a tetrahedron meets. The others borrow it.
+/// Gives each border tetrahedron to its owner: of the pieces that it meets, the one that comes
+/// first in the mesh. The other pieces borrow it.
 class VTKTIPPFILTERS_EXPORT BorderSorter3 : public FinalCellConsumer<3>
 {
 public:

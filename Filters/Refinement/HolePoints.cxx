@@ -52,8 +52,8 @@ public:
 
   std::size_t loops() const { return this->Loops.size(); }
 
-  /// Whether a loop surrounds a hole. Then it turns right whenever it passes its lowest node.
-  /// Others bound what is outside of a part of the mesh: they turn left there once.
+  /// Whether a loop surrounds a hole. Then it turns right whenever it passes its leftmost node, of
+  /// several the lowest. Other loops are outer borders of the mesh: they turn left there once.
   bool isHole(std::size_t loop) const;
 
   /// Returns a point on the right of a loop around a hole; nullopt if none is found.
@@ -187,17 +187,17 @@ std::size_t Border::next(std::size_t edge) const
 bool Border::isHole(std::size_t loop) const
 {
   const std::vector<std::size_t>& edges = this->Loops[loop];
-  Point2 lowest = this->from(edges.front());
+  Point2 leftmost = this->from(edges.front());
   for (const std::size_t edge : edges)
   {
     const Point2 p = this->from(edge);
-    lowest = std::tie(p.x, p.y) < std::tie(lowest.x, lowest.y) ? p : lowest;
+    leftmost = std::tie(p.x, p.y) < std::tie(leftmost.x, leftmost.y) ? p : leftmost;
   }
   for (std::size_t i = 0; i < edges.size(); ++i)
   {
     const std::size_t before = edges[(i + edges.size() - 1) % edges.size()];
-    if (this->from(edges[i]) == lowest &&
-      orientation(this->from(before), lowest, this->to(edges[i])) > 0)
+    if (this->from(edges[i]) == leftmost &&
+      orientation(this->from(before), leftmost, this->to(edges[i])) > 0)
     {
       return false;
     }
@@ -270,7 +270,14 @@ HolePoints findHolePoints(const std::vector<double>& xy, TrianglesView triangles
     if (border.isHole(loop))
     {
       const std::optional<Point2> point = border.pointIn(loop);
-      point ? holes.Points.push_back(*point) : void(++holes.TooThin);
+      if (point)
+      {
+        holes.Points.push_back(*point);
+      }
+      else
+      {
+        ++holes.TooThin;
+      }
     }
   }
   return holes;

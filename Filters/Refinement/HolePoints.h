@@ -16,7 +16,7 @@ namespace tipp
 /// Points in the holes of a mesh, as files of Triangle list them.
 struct HolePoints
 {
-  std::vector<Point2> Points; ///< one in each hole, by the lowest node of its border
+  std::vector<Point2> Points; ///< at most one in each hole
   std::int64_t TooThin = 0;   ///< holes without a point, because doubles have none inside
 };
 

@@ -203,8 +203,9 @@ double Refinement::expectedTriangles() const
   return sum;
 }
 
-/// Calls visit(chunk, group, first place of the next group) for all groups of places, in their
-/// order, where threads take chunks of them. `chunks`: one item for each chunk.
+/// Calls visit(item, first, next) for each of the `groups`, on all threads: `first` is the group's
+/// first index, and `next` that of the group after it. Consecutive groups share an item of
+/// `chunks`, which is resized.
 template <typename Item, typename Visit>
 void Refinement::forGroups(
   const std::vector<Index>& groups, std::vector<Item>& chunks, const Visit& visit) const
@@ -224,7 +225,7 @@ void Refinement::forGroups(
     });
 }
 
-/// Calls visit(chunk, vertex) for all places of vertices.
+/// Calls visit(item, vertex) for all indices of vertices, also unused ones; see forGroups().
 template <typename Item, typename Visit>
 void Refinement::forVertices(std::vector<Item>& chunks, const Visit& visit) const
 {
@@ -238,7 +239,7 @@ void Refinement::forVertices(std::vector<Item>& chunks, const Visit& visit) cons
     });
 }
 
-/// Calls visit(chunk, slot, triangle) for all triangles.
+/// Calls visit(item, index, triangle) for all triangles; see forGroups().
 template <typename Item, typename Visit>
 void Refinement::forTriangles(std::vector<Item>& chunks, const Visit& visit) const
 {

@@ -210,7 +210,7 @@ void Smoother::assignColours()
     {
       ++colour;
     }
-    if (colour < most) // a point with so many neighbours stays
+    if (colour < most) // if its neighbours have all colours, the point does not move
     {
       colours[i] = std::uint8_t(colour);
       this->Colours[colour].push_back(Index(i));

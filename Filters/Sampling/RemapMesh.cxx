@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 namespace tipp
 {
@@ -39,8 +40,9 @@ SimplexParts trianglesOf(vtkPointSet* mesh, const std::string& name, int threads
 
 } // namespace
 
-MeshRemapper::MeshRemapper(vtkPointSet* target, int threads)
+MeshRemapper::MeshRemapper(vtkPointSet* target, std::vector<std::string> names, int threads)
   : Target(target)
+  , Names(std::move(names))
   , Threads(threads)
   , Parts(trianglesOf(target, "The target mesh", threads))
 {
@@ -52,9 +54,19 @@ MeshRemapper::MeshRemapper(vtkPointSet* target, int threads)
 
 MeshRemapper::~MeshRemapper() = default;
 
-void MeshRemapper::findArrays(
-  vtkPointSet* source, const std::function<bool(const std::string&)>& wants)
+/// Finds the arrays to average in the first part of the source.
+void MeshRemapper::findArrays(vtkPointSet* source)
 {
+  const auto isKnown = [this](const std::string& name)
+  {
+    return std::any_of(this->Arrays.begin(), this->Arrays.end(),
+      [&name](const Array& known) { return known.Name == name; });
+  };
+  const auto isWanted = [this](const std::string& name)
+  {
+    return this->Names.empty() ||
+      std::find(this->Names.begin(), this->Names.end(), name) != this->Names.end();
+  };
   for (const bool ofCells : { true, false })
   {
     vtkDataSetAttributes* const data =
@@ -63,33 +75,40 @@ void MeshRemapper::findArrays(
     {
       vtkDataArray* const array = data->GetArray(i);
       const std::string name = array && array->GetName() ? array->GetName() : "";
-      const bool isKnown = std::any_of(this->Arrays.begin(), this->Arrays.end(),
-        [&name](const Array& known) { return known.Name == name; });
       if (!name.empty() && name != vtkDataSetAttributes::GhostArrayName() &&
-        array != data->GetGlobalIds() && scalarOf(array->GetDataType()) && !isKnown && wants(name))
+        array != data->GetGlobalIds() && scalarOf(array->GetDataType()) && !isKnown(name) &&
+        isWanted(name))
       {
         this->Arrays.push_back({ name, array->GetNumberOfComponents(), ofCells });
       }
     }
   }
+  for (const std::string& name : this->Names)
+  {
+    if (!isKnown(name))
+    {
+      throw std::runtime_error(
+        "The source mesh has no array of numbers '" + name + "'; name another.");
+    }
+  }
 }
 
-bool MeshRemapper::add(
-  vtkPointSet* source, const std::function<bool(const std::string&)>& wants, const Report& report)
+bool MeshRemapper::add(vtkPointSet* source, const Report& report)
 {
+  if (!this->Sums)
+  {
+    this->findArrays(source);
+  }
   const SimplexParts parts = trianglesOf(source, "The source mesh", this->Threads);
   if (parts.Triangles.Mesh.Cells == 0)
   {
     return true;
   }
-  if (!this->Sums)
-  {
-    this->findArrays(source, wants);
-  }
   OverlapSource from;
   from.Mesh = parts.Triangles.Mesh;
   from.Parents = parts.Triangles.Parents.empty() ? nullptr : parts.Triangles.Parents.data();
   std::vector<PlainValues> values;
+  values.reserve(this->Arrays.size()); // so that none moves, to which a field points
   for (const Array& array : this->Arrays)
   {
     vtkDataArray* const found =
@@ -173,9 +192,8 @@ vtkSmartPointer<vtkPointSet> MeshRemapper::finish(double null)
   covered->SetNumberOfTuples(cells);
   std::copy(shares.begin(), shares.end(), covered->GetPointer(0));
   result->GetCellData()->AddArray(covered);
-  constexpr double rounding = 1e-9;
   this->CoveredTwice =
-    std::count_if(shares.begin(), shares.end(), [](double share) { return share > 1 + rounding; });
+    std::count_if(shares.begin(), shares.end(), [](double share) { return share > 1; });
   this->Covered =
     std::count_if(shares.begin(), shares.end(), [](double share) { return share > 0; });
   return result;

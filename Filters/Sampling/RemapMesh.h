@@ -9,12 +9,10 @@
 
 #include "vtkSmartPointer.h"
 
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
-class vtkDataSetAttributes;
 class vtkPointSet;
 
 namespace tipp
@@ -28,19 +26,19 @@ namespace tipp
 class VTKTIPPFILTERS_EXPORT MeshRemapper
 {
 public:
-  /// `target` must have passed checkDataSet(), and is shared. Throws std::runtime_error if it has
-  /// cells with a volume or no cells with an area. `threads` is at least 1.
-  MeshRemapper(vtkPointSet* target, int threads);
+  /// `target` must have passed checkDataSet(), and is shared. `names`: of the arrays to average;
+  /// empty: all arrays of numbers. `threads` is at least 1. Throws std::runtime_error if the target
+  /// has cells with a volume or no cells with an area.
+  MeshRemapper(vtkPointSet* target, std::vector<std::string> names, int threads);
   ~MeshRemapper();
   MeshRemapper(const MeshRemapper&) = delete;
   MeshRemapper& operator=(const MeshRemapper&) = delete;
 
-  /// Adds a surface, or a part of one, that has passed checkDataSet(). wants(name) tells which
-  /// arrays of numbers are wanted; of equal names, the cells' array is taken. All parts must have
-  /// the wanted arrays of the first. Returns false if `report` stopped the work. Throws
-  /// std::runtime_error for cells with a volume, or arrays that differ between parts.
-  bool add(vtkPointSet* source, const std::function<bool(const std::string&)>& wants,
-    const Report& report);
+  /// Adds a surface, or a part of one, that has passed checkDataSet(). Of arrays of cells and of
+  /// points with the same name, the cells' is averaged. All parts must have the arrays of the
+  /// first. Returns false if `report` stopped the work. Throws std::runtime_error for cells with a
+  /// volume, a name that the source lacks, or arrays that differ between parts.
+  bool add(vtkPointSet* source, const Report& report);
 
   /// Returns the cells of the target with the means as cell arrays of doubles, `null` in cells
   /// that are not covered, and the array coveredShareName. The target's own arrays are left out.
@@ -60,10 +58,11 @@ private:
     bool OfCells;
   };
 
-  void findArrays(vtkPointSet* source, const std::function<bool(const std::string&)>& wants);
+  void findArrays(vtkPointSet* source);
   std::vector<double> sharesOfCells();
 
   vtkSmartPointer<vtkPointSet> Target;
+  std::vector<std::string> Names;
   int Threads;
   SimplexParts Parts; ///< of the target
   std::vector<Array> Arrays;

@@ -320,6 +320,7 @@ bool SampledImage::average(vtkPointSet* mesh, SimplexSet& simplices, const Repor
   source.Mesh = simplices.Mesh;
   source.Parents = simplices.Parents.empty() ? nullptr : simplices.Parents.data();
   std::vector<PlainValues> owned;
+  owned.reserve(this->Arrays.size()); // so that none moves, to which a field points
   for (const Array& array : this->Arrays)
   {
     vtkDataArray* const found = this->valuesOf(mesh, array);
@@ -375,9 +376,8 @@ void SampledImage::finishMeans()
     const Array& array = this->addArray(coveredShareName, true, VTK_DOUBLE, 1);
     std::copy(shares.begin(), shares.end(), static_cast<double*>(array.Samples->GetVoidPointer(0)));
   }
-  constexpr double rounding = 1e-9;
   const auto twice =
-    std::count_if(shares.begin(), shares.end(), [](double share) { return share > 1 + rounding; });
+    std::count_if(shares.begin(), shares.end(), [](double share) { return share > 1; });
   if (twice > 0)
   {
     this->warnOnce("Cells overlap: " + std::to_string(twice) +

@@ -22,6 +22,7 @@
 #include "vtkOutputWindow.h"
 #include "vtkPLYReader.h"
 #include "vtkPointData.h"
+#include "vtkPointSet.h"
 #include "vtkPolyData.h"
 #include "vtkSTLReader.h"
 #include "vtkXMLImageDataReader.h"
@@ -197,6 +198,19 @@ vtkSmartPointer<vtkDataSet> readDataSet(const std::string& path)
   }
   checkDataSet(data, path);
   return data;
+}
+
+vtkSmartPointer<vtkPointSet> readPointSet(const std::string& path)
+{
+  const vtkSmartPointer<vtkDataSet> data = readDataSet(path);
+  vtkPointSet* const points = vtkPointSet::SafeDownCast(data);
+  if (!points)
+  {
+    throw IOError(path,
+      std::string("holds a ") + data->GetClassName() +
+        ", which stores no points; convert it with 'tipp flatten'.");
+  }
+  return points;
 }
 
 std::string cellTypeName(int type)

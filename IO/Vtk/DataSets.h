@@ -17,6 +17,7 @@
 class vtkDataObject;
 class vtkDataSet;
 class vtkFieldData;
+class vtkPointSet;
 
 namespace tipp
 {
@@ -24,6 +25,10 @@ namespace tipp
 /// Reads a data set with VTK's readers, and checks it by checkVtkFile() and checkDataSet(). Throws
 /// IOError, with VTK's own message if a reader fails.
 VTKTIPPIO_EXPORT vtkSmartPointer<vtkDataSet> readDataSet(const std::string& path);
+
+/// As readDataSet(), but throws IOError also for a data set that stores no points, such as an
+/// image.
+VTKTIPPIO_EXPORT vtkSmartPointer<vtkPointSet> readPointSet(const std::string& path);
 
 /// The file that readDataSet() is reading; null at other times. VTK's readers trust what they read,
 /// so a damaged file can crash them; a program's signal handler can then name the file.

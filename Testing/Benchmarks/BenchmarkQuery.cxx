@@ -3,6 +3,7 @@
 // Utilities/benchmarks/query.sh. Arguments: 'probe', 'order' or 'rings', then POINTS QUERIES
 // REPEAT; 'contours' POINTS REPEAT; 'stored' MESH QUERIES MEGABYTES; 'stored-contours' MESH
 // MEGABYTES; or, also under mpirun, 'rank-rings' POINTS QUERIES REPEAT.
+#include "ProcessorTime.h"
 #include "ResampleSubjects.h"
 
 #include "Query/Queries.h"
@@ -37,22 +38,12 @@
 #include <vector>
 
 #include <malloc.h>
-#include <sys/resource.h>
 
 using namespace tipp;
 using namespace tipp::benchmark;
 
 namespace
 {
-
-double processorSeconds()
-{
-  rusage usage = {};
-  getrusage(RUSAGE_SELF, &usage);
-  const auto of = [](const timeval& time)
-  { return double(time.tv_sec) + 1e-6 * double(time.tv_usec); };
-  return of(usage.ru_utime) + of(usage.ru_stime);
-}
 
 /// Prints and returns the time of the fastest of `repeat` runs. `work` returns the number of
 /// results.

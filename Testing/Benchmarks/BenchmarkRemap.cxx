@@ -2,6 +2,8 @@
 // Measures conservative averages of a mesh of random points over the triangles of another one and
 // over pixels; see Utilities/benchmarks/remap.sh. Arguments: TRIANGLES PIXELS REPEAT, PIXELS along
 // each axis.
+#include "ProcessorTime.h"
+
 #include "Distributions/GeneratePoints.h"
 #include "Overlap/AddOverlaps.h"
 #include "Predicates/ExactArithmetic.h"
@@ -16,9 +18,8 @@
 #include <string>
 #include <vector>
 
-#include <sys/resource.h>
-
 using namespace tipp;
+using namespace tipp::benchmark;
 
 namespace
 {
@@ -89,15 +90,6 @@ struct Square
   Triangulation Triangles;
   SimplexMesh Mesh;
 };
-
-double processorSeconds()
-{
-  rusage usage = {};
-  getrusage(RUSAGE_SELF, &usage);
-  const auto of = [](const timeval& time)
-  { return double(time.tv_sec) + 1e-6 * double(time.tv_usec); };
-  return of(usage.ru_utime) + of(usage.ru_stime);
-}
 
 double integralIn(const OverlapSums& sums)
 {

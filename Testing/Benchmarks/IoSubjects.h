@@ -2,8 +2,9 @@
 #ifndef tippIoSubjects_h
 #define tippIoSubjects_h
 
+#include "ProcessorTime.h"
+
 #include <cstdint>
-#include <ctime>
 #include <string>
 #include <vector>
 
@@ -11,12 +12,6 @@ namespace tipp
 {
 namespace benchmark
 {
-
-/// Processor seconds of this process so far, the sum over all threads.
-inline double processorSeconds()
-{
-  return double(std::clock()) / CLOCKS_PER_SEC;
-}
 
 struct IoArguments
 {

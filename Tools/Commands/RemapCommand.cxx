@@ -11,8 +11,6 @@
 #include "Sampling/RemapMesh.h"
 #include "Vtk/DataSets.h"
 
-#include "vtkCellData.h"
-#include "vtkDataSet.h"
 #include "vtkExecutive.h"
 #include "vtkMultiProcessController.h"
 #include "vtkNew.h"
@@ -26,7 +24,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -47,27 +44,12 @@ struct RemapArguments
   std::string Memory = "1G"; ///< of the part of a partitioned source that is in memory at a time
 };
 
-/// Approximate bytes of memory per cell of the source, with its points and its place in the search
-/// tree.
+/// The approximate memory, in bytes, of a cell of the source: the cell, its share of the points,
+/// and its entry in the search tree.
 constexpr std::uint64_t bytesOfCell = 160;
 
-/// Reads a mesh of any cells with points. Throws IOError.
-vtkSmartPointer<vtkPointSet> readPointSet(const std::string& path)
-{
-  const vtkSmartPointer<vtkDataSet> mesh = readDataSet(path);
-  vtkPointSet* const points = vtkPointSet::SafeDownCast(mesh);
-  if (!points)
-  {
-    throw IOError(path,
-      std::string("holds a ") + mesh->GetClassName() +
-        ", which stores no points; convert it with 'tipp flatten'.");
-  }
-  return points;
-}
-
 /// Adds the pieces of a partitioned mesh, a few at a time. Returns false after an interrupt.
-bool addPieces(const RemapArguments& arguments, MeshRemapper& remapper,
-  const std::function<bool(const std::string&)>& wants, const Report& report)
+bool addPieces(const RemapArguments& arguments, MeshRemapper& remapper, const Report& report)
 {
   std::int64_t cells = 0;
   for (const PieceSummary& piece : openPartitionedMesh(arguments.Source).Pieces)
@@ -92,25 +74,12 @@ bool addPieces(const RemapArguments& arguments, MeshRemapper& remapper,
       throw IOError(errors->message());
     }
     auto* const part = vtkPointSet::SafeDownCast(reader->GetOutputDataObject(0));
-    if (part && !remapper.add(part, wants, partOf(report, double(i) / parts, (i + 1.0) / parts)))
+    if (part && !remapper.add(part, partOf(report, double(i) / parts, (i + 1.0) / parts)))
     {
       return false;
     }
   }
   return true;
-}
-
-/// Throws IOError for a name that the source does not have.
-void requireArrays(const RemapArguments& arguments, vtkPointSet* result)
-{
-  const std::set<std::string> names = arrayNames(result->GetCellData());
-  for (const std::string& name : arguments.Arrays)
-  {
-    if (names.count(name) == 0)
-    {
-      throw IOError(arguments.Source, "has no array of numbers '" + name + "'; name another.");
-    }
-  }
 }
 
 /// Throws IOError if the output's extension does not fit the target's type.
@@ -133,23 +102,17 @@ int run(RemapArguments& arguments)
   const ThreadLimit limit(arguments.Threads);
   const auto bar = std::make_unique<ProgressBar>("Remapping");
   const Report report = progressOn(bar);
-  const auto wants = [&arguments](const std::string& name)
-  {
-    return arguments.Arrays.empty() ||
-      std::find(arguments.Arrays.begin(), arguments.Arrays.end(), name) != arguments.Arrays.end();
-  };
   const vtkSmartPointer<vtkPointSet> target = readPointSet(arguments.Target);
   requireExtension(arguments, target);
-  MeshRemapper remapper(target, threadCount(arguments.Threads));
+  MeshRemapper remapper(target, arguments.Arrays, threadCount(arguments.Threads));
   const bool isDone = isPartitionedMesh(arguments.Source)
-    ? addPieces(arguments, remapper, wants, report)
-    : remapper.add(readPointSet(arguments.Source), wants, report);
+    ? addPieces(arguments, remapper, report)
+    : remapper.add(readPointSet(arguments.Source), report);
   if (!isDone)
   {
     return reportInterrupt();
   }
   const vtkSmartPointer<vtkPointSet> result = remapper.finish(arguments.Null);
-  requireArrays(arguments, result);
   writeXmlFile(arguments.Output, before, result);
   fmt::print("{} cells, {} of them covered, {:.3f} s\n", std::int64_t(result->GetNumberOfCells()),
     remapper.covered(), watch.seconds());

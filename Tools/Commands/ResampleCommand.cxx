@@ -379,13 +379,7 @@ vtkSmartPointer<vtkDataSet> readMesh(
       if (!isFlatMesh(arguments.Input) || isOpenedBy(arguments.Input, Opener::Vtk))
       {
         timeOf(arguments, nullptr);
-        mesh = readDataSet(arguments.Input);
-        if (!vtkPointSet::SafeDownCast(mesh))
-        {
-          throw IOError(arguments.Input,
-            std::string("holds a ") + mesh->GetClassName() +
-              ", which stores no points; convert it with 'tipp flatten'.");
-        }
+        mesh = readPointSet(arguments.Input);
         requireNumbers(arguments, mesh);
         names = { arrayNames(mesh->GetPointData()), arrayNames(mesh->GetCellData()) };
         hideOtherShares(mesh, ranks);
