@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippMeshSeries_h
+#define tippMeshSeries_h
+
+#include "Arrays/Scalar.h"
+#include "vtkTIPPIOModule.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace tipp
+{
+
+/// A quantity that a model wrote at the nodes or cells of its mesh.
+struct SeriesVariable
+{
+  std::string Name;
+  std::string LongName; ///< as in the file, or empty
+  std::string Units;    ///< as in the file, or empty
+  Scalar Type = Scalar::Float64;
+  bool OnCells = false; ///< one value per triangle; otherwise one per node
+  bool Varies = false;  ///< has values of its own for each time step
+};
+
+/// The triangles of a model's mesh. Other cells are cut into triangles.
+struct SeriesMesh
+{
+  std::vector<double> XY;              ///< x and y of the nodes, interleaved
+  std::vector<std::int64_t> Triangles; ///< three node indices, from 0, per triangle; all are valid
+  /// The index of the file's cell that each triangle is a part of; empty: the cells are triangles.
+  std::vector<std::int64_t> OriginalCells;
+};
+
+/// The output of a model: a mesh of triangles in the plane, and variables of which each time step
+/// is read when it is asked for.
+class VTKTIPPIO_EXPORT MeshSeries
+{
+public:
+  virtual ~MeshSeries() = default;
+
+  /// Reads the mesh. Throws IOError.
+  virtual SeriesMesh readMesh() = 0;
+
+  /// Reads a variable's values at a time step: one per node, or per triangle of readMesh(). NaN
+  /// where the model has no value: at dry nodes, and where the file has its fill value. `step` is
+  /// ignored if the variable does not vary. Throws IOError.
+  virtual void read(std::size_t variable, std::size_t step, std::vector<double>& values) = 0;
+
+  std::string Path; ///< the file, for messages
+  std::int64_t Nodes = 0;
+  std::vector<SeriesVariable> Variables;
+  std::vector<double> Times; ///< of the steps, ascending; empty if no variable varies
+  /// The unit and origin of Times in the manner of CF, such as "seconds since 2008-09-01"; empty if
+  /// the file does not say.
+  std::string TimeUnits;
+  std::string Calendar; ///< in the manner of CF; empty: the standard one
+  /// The reference system as GDAL reads it, such as "EPSG:4326"; empty if the file does not say.
+  std::string Crs;
+};
+
+/// How openMeshSeries() reads a file.
+struct SeriesOptions
+{
+  /// More files, with values at the nodes or cells of the mesh in the first one.
+  std::vector<std::string> Values;
+  /// Whether longitudes are moved by 360 degrees where cells cross the 180th meridian.
+  bool Wrap = false;
+};
+
+/// Opens the output of a model by the extension of its name. Throws IOError for anything else, with
+/// the reason.
+VTKTIPPIO_EXPORT std::unique_ptr<MeshSeries> openMeshSeries(
+  const std::string& path, const SeriesOptions& options = {});
+
+/// Whether openMeshSeries() opens the file, by its extension.
+VTKTIPPIO_EXPORT bool isMeshSeries(const std::string& path);
+
+} // namespace tipp
+
+#endif
