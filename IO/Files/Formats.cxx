@@ -20,12 +20,13 @@ constexpr unsigned vtkRead = Use::Points | Use::Constraints | Use::Triangles;
 // clang-format off
 /// The formats. An extension may be in several rows, if it is opened differently for each use. The
 /// order is that of lists in messages.
-constexpr std::array<Format, 32> formats = { {
+constexpr std::array<Format, 34> formats = { {
   // Extensions, others, opener, uses, drivers of GDAL, help
   { ".poly", "", Opener::Triangle, Use::Constraints, "", "" },
-  { ".tif", ".tiff", Opener::GeoTiff, Use::Rasters | Use::WritesRasters, "GTiff", "" },
+  { ".tif", ".tiff", Opener::GeoTiff, Use::Rasters | Use::WritesRasters | Use::WritesSeries,
+    "GTiff", "" },
   { ".npy", "", Opener::Npy, Use::Points | Use::Divisible | Use::Triangles | Use::WritesPoints |
-      Use::WritesTriangles | Use::WritesTetrahedra | Use::WritesRasters, "",
+      Use::WritesTriangles | Use::WritesTetrahedra | Use::WritesRasters | Use::WritesSeries, "",
     "n x 2 or n x 3, float64 or float32" },
   { ".vtp", "", Opener::Vtk, vtkRead | Use::WritesTriangles, "", "" },
   { ".vtu", "", Opener::Vtk, vtkRead | Use::WritesTriangles | Use::WritesTetrahedra, "", "" },
@@ -65,6 +66,8 @@ constexpr std::array<Format, 32> formats = { {
     "" },
   { ".asc", "", Opener::Gdal, Use::Rasters, "AAIGrid", "" },
   { ".flt .bil", "", Opener::Gdal, Use::Rasters, "EHdr", "" },
+  { ".nc", "", Opener::Netcdf, Use::WritesSeries, "", "" },
+  { ".pvd", "", Opener::ParaViewList, Use::WritesSeries, "", "" },
   { ".vtp", "", Opener::Vtk, Use::WritesLines, "", "" },
   { ".tipp", "", Opener::Pieces, Use::WritesPieces, "", "" },
 } };

@@ -26,7 +26,8 @@ struct Use
     WritesPieces = 1 << 8, ///< written as a partitioned mesh, which is a folder
     WritesRasters = 1 << 9,
     WritesLines = 1 << 10, ///< written as contour lines
-    WritesPoints = 1 << 11
+    WritesPoints = 1 << 11,
+    WritesSeries = 1 << 12 ///< written as fields on a grid through time
   };
 };
 
@@ -40,8 +41,10 @@ enum class Opener
   GeoTiff,
   Gmsh,
   Las,
+  Netcdf,
   Npy,
-  Pieces, ///< a partitioned mesh
+  ParaViewList, ///< of files and their times
+  Pieces,       ///< a partitioned mesh
   Sms,
   Text,
   Triangle, ///< the files of Shewchuk's program

@@ -224,6 +224,11 @@ PendingFile::~PendingFile()
   }
 }
 
+void PendingFile::unlock() const
+{
+  flock(this->File->descriptor(), LOCK_UN);
+}
+
 void PendingFile::commit()
 {
   this->File->sync();

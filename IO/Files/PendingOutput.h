@@ -49,6 +49,8 @@ public:
   /// The temporary file to write to.
   const OutputFile& file() const { return *this->File; }
   const std::string& temporaryPath() const { return this->Temporary; }
+  /// Unlocks the temporary file, for libraries that lock a file while they write it, such as HDF5.
+  void unlock() const;
 
   /// Moves the file to its path once it is on the disk. Throws IOError if that fails or if the path
   /// has changed since the constructor; then the finished file keeps its temporary name.

@@ -3,6 +3,7 @@
 #include "Commands/Commands.h"
 #include "Commands/PointArguments.h"
 #include "Commands/Report.h"
+#include "Commands/ResampleArguments.h"
 #include "Console/Process.h"
 #include "Dem/RasterTiles.h"
 #include "Files/Formats.h"
@@ -56,29 +57,6 @@ namespace tipp
 {
 namespace
 {
-
-/// The options of 'tipp resample'.
-struct ResampleArguments
-{
-  std::string Input;
-  std::string Output;
-  Opener OutputIs = Opener::None; ///< the format of Output
-  std::vector<double> Bounds;     ///< six; empty: those of the mesh
-  bool BoundsHaveZ = true;        ///< whether the user gave all six
-  std::vector<int> Dimensions;    ///< number of samples; empty: given by Delta
-  /// Distance of samples; empty: given by Dimensions.
-  std::vector<double> Delta;
-  std::vector<std::string> Arrays; ///< empty: all
-  int Step = 0;                    ///< the time step to sample of arrays that vary in time
-  std::string Device = "auto";
-  int Threads = 0;
-  std::optional<double> Null;
-  std::optional<double> NoData;
-  std::string Crs;
-  std::string Method = "linear";
-  bool CoveredShare = false; ///< whether to add the share of each pixel that is covered
-  std::string Memory = "1G"; ///< of the part of a partitioned mesh that is in memory at a time
-};
 
 /// Approximate bytes of memory per cell, including its share of the points and of the samples.
 constexpr std::uint64_t bytesOfCell = 128;
@@ -239,13 +217,8 @@ std::optional<double> timeOf(const ResampleArguments& arguments, vtkAlgorithm* r
   vtkInformation* const information = reader ? reader->GetOutputInformation(0) : nullptr;
   auto* const key = vtkStreamingDemandDrivenPipeline::TIME_STEPS();
   const int steps = information && information->Has(key) ? information->Length(key) : 0;
-  if (arguments.Step > 0 && arguments.Step >= steps)
-  {
-    throw IOError(arguments.Input,
-      "has no time step " + std::to_string(arguments.Step) + "; there are " +
-        std::to_string(steps) + ", counted from 0.");
-  }
-  return steps > 0 ? std::make_optional(information->Get(key)[arguments.Step]) : std::nullopt;
+  const std::size_t step = parseSteps(arguments.Step, std::size_t(steps), arguments.Input).front();
+  return steps > 0 ? std::make_optional(information->Get(key)[int(step)]) : std::nullopt;
 }
 
 /// Data from the index of a partitioned mesh.
@@ -414,8 +387,7 @@ std::optional<double> connectMesh(const ResampleArguments& arguments, Communicat
 constexpr const char* footer =
   R"(MESH    any VTK file of triangles, tetrahedra or other cells, which are cut into these; or
         a partitioned mesh (its folder or index) or a flat one (a folder of .npy
-        arrays), of which only the range of --bounds is read. Of arrays that vary in
-        time the values of --step are sampled. A partitioned mesh may be larger than
+        arrays), of which only the range of --bounds is read. A partitioned mesh may be larger than
         memory: it is read in parts of about --memory, in bytes or such as 512M. The z of
         a surface is sampled as the array elevation, unless all points have the same z.
 IMAGE   .vti: all arrays, vtkValidPointMask (1 where a cell contains the sample) and
@@ -425,6 +397,15 @@ IMAGE   .vti: all arrays, vtkValidPointMask (1 where a cell contains the sample)
         number of --null. .tif: a GeoTIFF with a band for each array; the samples are the
         pixels' centres, and --null is its number for no value (default: -9999). Values
         have 32 bits, or 64 if they are too large for that.
+
+Time steps (--step, --reduce, .nc or .pvd) are resampled one after another in the plane, from
+a flat mesh of triangles; the triangles of the samples are found once. Memory is needed for
+the mesh and a few steps, however many there are. .nc: NetCDF in the manner of CF, with
+time and reference system. .tif and .pvd: a file for each step, such as maps_0012.tif, and
+one for what does not vary. .npy: steps x rows x columns. Values have 32 bits. Dry nodes are
+those without a value (NaN, a fill value or --no-data), and triangles with one are dry,
+unless --waterline is given. --reduce counts steps with a value only; a step stands for the
+time from half way after the step before to half way before the next one.
 
 With --method conservative, samples are the exact means over the part of each pixel that
 cells cover, as float64. A pixel has the sample as its centre and reaches half way to the
@@ -439,6 +420,8 @@ Examples:
   mpirun -np 4 tipp resample surge.tipp -o surge.vti --dims 2048 2048 1
   tipp resample surge.vtu -o peak.npy --arrays zeta_max --delta 0.01 0.01 0
     --bounds -76 -75 35 36 --no-data -99999
+  tipp resample surge -o maps.nc --step all --resolution 0.01 --bounds -76 -75 35 36
+  tipp resample surge -o flood.tif --reduce max time-of-max above:1 --resolution 0.01
 )";
 
 void configure(const ResampleArguments& arguments, vtkRangeResampleFilter* filter)
@@ -727,26 +710,50 @@ int runResample(const ResampleArguments& arguments)
   return Success;
 }
 
+void addSeriesOptions(CLI::App& command, ResampleArguments& arguments)
+{
+  command.add_option("--step", arguments.Step,
+    "The time steps, counted from 0: a number, all or FIRST:LAST:STRIDE with LAST included");
+  command.add_option("--values", arguments.Values,
+    "More files with values at the mesh's nodes or cells, such as fort.63");
+  command.add_option("--reduce", arguments.Reduce,
+    "What to make of the time steps instead of writing them: max, min, mean, time-of-max or "
+    "above:LEVEL, the time above a level");
+  command.add_flag("--with-steps", arguments.WithSteps, "With --reduce: writes the steps, too");
+  command.add_option("--waterline", arguments.Waterline,
+    "The array with the depth of the ground, positive down: water ends where its level meets the "
+    "ground, not at the last wet node");
+  command.add_flag("--wrap", arguments.Wrap,
+    "Moves longitudes by 360 degrees where cells cross the 180th meridian");
+}
+
 void addOptions(CLI::App& command, ResampleArguments& arguments)
 {
   command.add_option("mesh", arguments.Input, "The mesh, see below")->required();
-  addOutput(command, arguments.Output, "The image, see below", Use::WritesRasters);
+  addOutput(
+    command, arguments.Output, "The image, see below", Use::WritesRasters | Use::WritesSeries);
   command
     .add_option("--bounds", arguments.Bounds,
       "The range: xmin xmax ymin ymax [zmin zmax] (default: that of the mesh)")
     ->expected(4, 6);
-  CLI::Option* const dimensions = command
-                                    .add_option("--dims", arguments.Dimensions,
-                                      "Number of samples along x, y and z; 0: spaced as along the "
-                                      "first axis with a number; surfaces have one along z")
-                                    ->expected(3);
+  CLI::Option* const dimensions =
+    command
+      .add_option("--dims", arguments.Dimensions,
+        "Number of samples along x, y [and z]; 0: spaced as along the "
+        "first axis with a number; surfaces have one along z")
+      ->expected(2, 3);
   CLI::Option* const delta = command
                                .add_option("--delta", arguments.Delta,
-                                 "Distance between samples along x, y and z; 0: one sample")
-                               ->expected(3);
+                                 "Distance between samples along x, y [and z]; 0: one sample")
+                               ->expected(2, 3);
   delta->excludes(dimensions);
+  command
+    .add_option("--resolution", arguments.Resolution, "Distance between samples along x and y")
+    ->check(CLI::PositiveNumber)
+    ->excludes(dimensions)
+    ->excludes(delta);
   command.add_option("--arrays", arguments.Arrays, "Names of arrays (default: all, and elevation)");
-  addStepOption(command, arguments.Step);
+  addSeriesOptions(command, arguments);
   command
     .add_option("--device", arguments.Device, "auto, openmp, opencl, opencl:INDEX or opencl:NAME")
     ->capture_default_str();
@@ -765,12 +772,24 @@ void addOptions(CLI::App& command, ResampleArguments& arguments)
 
 int run(ResampleArguments& arguments)
 {
-  arguments.OutputIs = openerOf(arguments.Output, Use::WritesRasters);
-  refuseIf(
-    arguments.Dimensions.empty() && arguments.Delta.empty(), "--dims", "or --delta is required");
+  if (arguments.Resolution > 0)
+  {
+    arguments.Delta = { arguments.Resolution, arguments.Resolution };
+  }
+  refuseIf(arguments.Dimensions.empty() && arguments.Delta.empty(), "--dims",
+    "or --delta or --resolution is required");
+  arguments.Dimensions.resize(arguments.Dimensions.empty() ? 0 : 3, 1);
+  arguments.Delta.resize(arguments.Delta.empty() ? 0 : 3, 0);
   refuseIf(arguments.Bounds.size() == 5, "--bounds", "needs four numbers, or six");
   refuseIf(arguments.CoveredShare && arguments.Method != "conservative", "--covered-share",
     "needs --method conservative");
+  if (isSeriesRun(arguments))
+  {
+    return isIdleRank() ? Success : runSeries(arguments);
+  }
+  arguments.OutputIs = openerOf(arguments.Output, Use::WritesRasters);
+  refuseIf(arguments.OutputIs == Opener::None, "--output",
+    "must end in " + listFormats(Use::WritesRasters) + " for a mesh without time steps");
   arguments.BoundsHaveZ = arguments.Bounds.size() != 4;
   arguments.Bounds.resize(arguments.Bounds.empty() ? 0 : 6);
   if (arguments.OutputIs == Opener::Npy && arguments.Arrays.empty())

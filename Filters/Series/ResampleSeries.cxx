@@ -1,0 +1,371 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Series/ResampleSeries.h"
+
+#include "Files/IOError.h"
+#include "Parallel/BoundsOf.h"
+#include "Parallel/Stopwatch.h"
+#include "Raster/RasterFile.h"
+#include "Sampling/SamplingLattice.h"
+
+#include <algorithm>
+#include <cmath>
+#include <future>
+#include <limits>
+#include <sstream>
+#include <utility>
+
+namespace tipp
+{
+namespace
+{
+
+std::string textOf(const Box2& box)
+{
+  std::ostringstream text;
+  text << "x from " << box.Min.x << " to " << box.Max.x << ", y from " << box.Min.y << " to "
+       << box.Max.y;
+  return text.str();
+}
+
+/// The mesh's bounding box. Throws IOError if it has no points, or if it does not meet the range.
+Box2 requireMeeting(const MeshSeries& series, const SeriesMesh& mesh, const SeriesRange& range)
+{
+  Box2 box = Box2::empty();
+  for (std::size_t i = 0; i < mesh.XY.size(); i += 2)
+  {
+    if (std::isfinite(mesh.XY[i]) && std::isfinite(mesh.XY[i + 1]))
+    {
+      box.extend(Point2{ mesh.XY[i], mesh.XY[i + 1] });
+    }
+  }
+  if (box.isEmpty() || mesh.Triangles.empty())
+  {
+    throw IOError(series.Path, "has no triangles.");
+  }
+  if (range.Bounds && !range.Bounds->meets(box))
+  {
+    throw IOError(series.Path,
+      "has nothing in --bounds: its nodes have " + textOf(box) +
+        "; give xmin xmax ymin ymax in these units.");
+  }
+  return box;
+}
+
+Lattice latticeOf(const Box2& box, const SeriesRange& range)
+{
+  const Box2& of = range.Bounds ? *range.Bounds : box;
+  const Box3 bounds{ { of.Min.x, of.Min.y, 0 }, { of.Max.x, of.Max.y, 0 } };
+  const bool hasDelta = range.Delta[0] > 0 || range.Delta[1] > 0;
+  const std::array<int, 3> dimensions = hasDelta
+    ? std::array<int, 3>{ 1, 1, 1 }
+    : chosenDimensions(bounds, { range.Dimensions[0], range.Dimensions[1], 1 }, true);
+  return rangeLattice(bounds, dimensions, { range.Delta[0], range.Delta[1], 0 });
+}
+
+} // namespace
+
+std::optional<SeriesSamples> findSamples(
+  MeshSeries& series, const SeriesRange& range, int threads, const Report& progress)
+{
+  SeriesMesh read = series.readMesh();
+  SeriesSamples samples{ latticeOf(requireMeeting(series, read, range), range), KeptSamples() };
+  requireMemory(double(samples.Grid.samples()), 24 * double(samples.Grid.samples()));
+  constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
+  const auto nodes = std::int64_t(read.XY.size() / 2);
+  if (nodes > most || std::int64_t(read.Triangles.size() / 3) > most)
+  {
+    throw IOError(series.Path, "has more than 2147483647 nodes or triangles; partition it first.");
+  }
+  std::vector<double> points(3 * std::size_t(nodes));
+  forIndices(
+    nodes,
+    [&](std::int64_t i)
+    {
+      points[3 * std::size_t(i)] = read.XY[2 * std::size_t(i)];
+      points[3 * std::size_t(i) + 1] = read.XY[2 * std::size_t(i) + 1];
+    },
+    threads);
+  read.XY = {};
+  SimplexMesh mesh;
+  mesh.Points = points.data();
+  mesh.PointCount = nodes;
+  mesh.Ids = read.Triangles.data();
+  mesh.Wide = true;
+  mesh.Cells = std::int64_t(read.Triangles.size() / 3);
+  std::optional<KeptSamples> kept = KeptSamples::find(mesh, samples.Grid, threads, progress);
+  if (!kept)
+  {
+    return std::nullopt;
+  }
+  samples.Kept = std::move(*kept);
+  return samples;
+}
+
+SeriesDescription describeSeries(
+  const MeshSeries& series, const SeriesPlan& plan, const Lattice& grid)
+{
+  SeriesDescription description;
+  description.Grid = grid;
+  description.TimeUnits = series.TimeUnits;
+  description.Calendar = series.Calendar;
+  description.Crs = series.Crs;
+  description.Source = series.Path;
+  description.Threads = plan.Threads;
+  for (const std::size_t step : plan.Steps)
+  {
+    description.Times.push_back(series.Times[step]);
+  }
+  for (const std::size_t i : plan.Variables)
+  {
+    const SeriesVariable& variable = series.Variables[i];
+    const SeriesField field{ variable.Name, variable.LongName, variable.Units, variable.Varies };
+    if (!variable.Varies || plan.WritesSteps)
+    {
+      description.Fields.push_back(field);
+    }
+    for (std::size_t k = 0; variable.Varies && k < plan.Reductions.size(); ++k)
+    {
+      description.Fields.push_back(plan.Reductions[k].fieldOf(field, series.TimeUnits));
+    }
+  }
+  return description;
+}
+
+namespace
+{
+
+/// The run of resampleSeries().
+class Run
+{
+public:
+  Run(
+    MeshSeries& series, const SeriesSamples& samples, const SeriesPlan& plan, SeriesOutput& output)
+    : Series(series)
+    , Samples(samples)
+    , Plan(plan)
+    , Output(output)
+  {
+    std::size_t field = 0;
+    for (const std::size_t i : plan.Variables)
+    {
+      const bool varies = series.Variables[i].Varies;
+      Job job{ i, field, {}, {} };
+      field += !varies || plan.WritesSteps ? 1 : 0;
+      for (std::size_t k = 0; varies && k < plan.Reductions.size(); ++k)
+      {
+        job.Reducers.emplace_back(
+          plan.Reductions[k], std::size_t(samples.Kept.samples()), this->times());
+        job.FieldsOfReducers.push_back(field++);
+      }
+      (varies ? this->Varying : this->Constant).push_back(std::move(job));
+    }
+  }
+
+  std::optional<SeriesTimes> run()
+  {
+    this->readGround();
+    for (std::size_t step = 0; !this->Varying.empty() && step < this->Plan.Steps.size(); ++step)
+    {
+      for (Job& job : this->Varying)
+      {
+        this->Tasks.push_back({ &job, step });
+      }
+    }
+    for (Job& job : this->Constant)
+    {
+      this->Tasks.push_back({ &job, 0 });
+    }
+    for (std::size_t i = 0; i < this->Tasks.size(); ++i)
+    {
+      if (this->Plan.Progress && !this->Plan.Progress(double(i) / double(this->Tasks.size())))
+      {
+        this->finishWriting();
+        return std::nullopt;
+      }
+      this->doTask(i);
+    }
+    this->finishWriting();
+    this->writeReductions();
+    return this->Times;
+  }
+
+private:
+  /// A variable, its fields in the output, and its reductions.
+  struct Job
+  {
+    std::size_t Variable;
+    std::size_t Field;
+    std::vector<SeriesReducer> Reducers;
+    std::vector<std::size_t> FieldsOfReducers;
+  };
+
+  struct Task
+  {
+    Job* Of;
+    std::size_t Step; ///< index of SeriesPlan::Steps
+  };
+
+  std::vector<double> times() const
+  {
+    std::vector<double> times;
+    for (const std::size_t step : this->Plan.Steps)
+    {
+      times.push_back(this->Series.Times[step]);
+    }
+    return times;
+  }
+
+  /// Reads the values of a task, in another thread.
+  std::vector<double> read(const Task& task)
+  {
+    const Stopwatch watch;
+    std::vector<double> values;
+    const std::size_t step = this->Plan.Steps.empty() ? 0 : this->Plan.Steps[task.Step];
+    this->Series.read(task.Of->Variable, step, values);
+    const std::string& name = this->Series.Variables[task.Of->Variable].Name;
+    for (double& value : values)
+    {
+      value = value == this->Plan.NoData ? std::numeric_limits<double>::quiet_NaN() : value;
+      if (std::fabs(value) > double(std::numeric_limits<float>::max()))
+      {
+        requireSingle(value, name);
+      }
+    }
+    this->Times.Reading += watch.seconds();
+    return values;
+  }
+
+  std::vector<double> nextValues(std::size_t i)
+  {
+    std::vector<double> values =
+      this->Reading.valid() ? this->Reading.get() : this->read(this->Tasks[i]);
+    if (i + 1 < this->Tasks.size())
+    {
+      this->Reading =
+        std::async(std::launch::async, [this, i] { return this->read(this->Tasks[i + 1]); });
+    }
+    return values;
+  }
+
+  void doTask(std::size_t i)
+  {
+    const Task& task = this->Tasks[i];
+    const std::vector<double> values = this->nextValues(i);
+    std::vector<float>& samples = this->Buffers[i % 2];
+    samples.resize(std::size_t(this->Samples.Kept.samples()));
+    Stopwatch watch;
+    this->sample(task, values, samples.data());
+    this->Times.Sampling += watch.seconds();
+    watch.restart();
+    this->reduce(task, samples);
+    this->Times.Reducing += watch.seconds();
+    this->finishWriting();
+    const bool varies = this->Series.Variables[task.Of->Variable].Varies;
+    if (!varies || this->Plan.WritesSteps)
+    {
+      this->Writing = std::async(std::launch::async,
+        [this, &task, &samples]
+        {
+          const Stopwatch watchOfWriting;
+          this->Output.write(task.Of->Field, task.Step, samples.data());
+          this->Times.Writing += watchOfWriting.seconds();
+        });
+    }
+  }
+
+  void sample(const Task& task, const std::vector<double>& values, float* samples) const
+  {
+    constexpr float outside = std::numeric_limits<float>::quiet_NaN();
+    const SeriesVariable& variable = this->Series.Variables[task.Of->Variable];
+    const KeptSamples& kept = this->Samples.Kept;
+    if (variable.OnCells)
+    {
+      kept.fromCells(values.data(), samples, outside, this->Plan.Threads);
+    }
+    else if (variable.Varies && !this->Ground.empty())
+    {
+      kept.waterLevel(values.data(), this->Ground.data(), samples, outside, this->Plan.Threads);
+    }
+    else
+    {
+      kept.fromPoints(values.data(), samples, outside, this->Plan.Threads);
+    }
+  }
+
+  void reduce(const Task& task, const std::vector<float>& samples) const
+  {
+    if (task.Of->Reducers.empty())
+    {
+      return;
+    }
+    forChunks(std::int64_t(samples.size()), 1 << 14, this->Plan.Threads, {},
+      [&](std::int64_t begin, std::int64_t end, int)
+      {
+        for (SeriesReducer& reducer : task.Of->Reducers)
+        {
+          reducer.add(task.Step, samples.data(), std::size_t(begin), std::size_t(end));
+        }
+      });
+  }
+
+  void finishWriting()
+  {
+    if (this->Writing.valid())
+    {
+      this->Writing.get();
+    }
+  }
+
+  void readGround()
+  {
+    if (!this->Plan.Depth)
+    {
+      return;
+    }
+    std::vector<double> depth;
+    this->Series.read(*this->Plan.Depth, 0, depth);
+    for (double& value : depth)
+    {
+      value = -value;
+    }
+    this->Ground.resize(std::size_t(this->Samples.Kept.samples()));
+    this->Samples.Kept.fromPoints(depth.data(), this->Ground.data(),
+      std::numeric_limits<float>::quiet_NaN(), this->Plan.Threads);
+  }
+
+  void writeReductions()
+  {
+    const Stopwatch watch;
+    for (const Job& job : this->Varying)
+    {
+      for (std::size_t i = 0; i < job.Reducers.size(); ++i)
+      {
+        this->Output.write(job.FieldsOfReducers[i], 0, job.Reducers[i].result().data());
+      }
+    }
+    this->Times.Writing += watch.seconds();
+  }
+
+  MeshSeries& Series;
+  const SeriesSamples& Samples;
+  const SeriesPlan& Plan;
+  SeriesOutput& Output;
+  SeriesTimes Times;
+  std::vector<Job> Varying;
+  std::vector<Job> Constant;
+  std::vector<Task> Tasks;
+  std::vector<float> Ground; ///< its elevation at the samples; empty: water ends at dry nodes
+  std::vector<float> Buffers[2];
+  std::future<std::vector<double>> Reading; ///< destroyed first: they use what is above
+  std::future<void> Writing;
+};
+
+} // namespace
+
+std::optional<SeriesTimes> resampleSeries(
+  MeshSeries& series, const SeriesSamples& samples, const SeriesPlan& plan, SeriesOutput& output)
+{
+  return Run(series, samples, plan, output).run();
+}
+
+} // namespace tipp

@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Series/SeriesFiles.h"
+
+#include "Dem/RasterTiles.h"
+#include "Files/Formats.h"
+#include "Files/IOError.h"
+#include "Files/VtkXml.h"
+#include "Npy/NpyFile.h"
+#include "Raster/RasterFile.h"
+#include "Vtk/DataSets.h"
+
+#include "vtkFloatArray.h"
+#include "vtkImageData.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <utility>
+
+namespace tipp
+{
+namespace
+{
+
+namespace fs = std::filesystem;
+
+/// The path of a step's file.
+std::string stepPath(const std::string& path, std::size_t number, const std::string& extension)
+{
+  char digits[32];
+  std::snprintf(digits, sizeof digits, "_%04zu", number);
+  const fs::path file(path);
+  return (file.parent_path() / (file.stem().string() + digits + extension)).string();
+}
+
+RasterGrid gridOf(const Lattice& lattice)
+{
+  RasterGrid grid;
+  grid.Columns = lattice.size(0);
+  grid.Rows = lattice.size(1);
+  grid.Pixel = { lattice.Delta[0], lattice.Delta[1] };
+  grid.West = gridPosition(lattice.Min[0], lattice.Delta[0], -1);
+  grid.South = gridPosition(lattice.Min[1], lattice.Delta[1], -1);
+  return grid;
+}
+
+/// Which fields are in a file.
+std::vector<std::size_t> fieldsOf(const SeriesDescription& of, bool varying)
+{
+  std::vector<std::size_t> fields;
+  for (std::size_t i = 0; i < of.Fields.size(); ++i)
+  {
+    if (of.Fields[i].Varies == varying)
+    {
+      fields.push_back(i);
+    }
+  }
+  return fields;
+}
+
+/// Writes a file for each step, and one for the fields that do not vary.
+class FilePerStep : public SeriesOutput
+{
+public:
+  FilePerStep(const SeriesDescription& description, std::vector<std::string> paths,
+    std::vector<PathState> before)
+    : Of(description)
+    , Paths(std::move(paths))
+    , Before(std::move(before))
+    , Samples(description.Fields.size())
+  {
+  }
+
+  void write(std::size_t field, std::size_t step, const float* samples) final
+  {
+    this->Samples[field].assign(samples, samples + this->Of.Grid.samples());
+    const bool varies = this->Of.Fields[field].Varies;
+    const std::vector<std::size_t> fields = fieldsOf(this->Of, varies);
+    if (std::none_of(
+          fields.begin(), fields.end(), [this](std::size_t i) { return this->Samples[i].empty(); }))
+    {
+      const bool hasSteps = !fieldsOf(this->Of, true).empty();
+      const std::size_t file = varies ? step : hasSteps ? this->Of.Times.size() : 0;
+      this->writeFile(this->Paths[file], fields, this->Before[file]);
+      for (const std::size_t i : fields)
+      {
+        this->Samples[i].clear();
+      }
+    }
+  }
+
+  void close() override {}
+
+protected:
+  virtual void writeFile(
+    const std::string& path, const std::vector<std::size_t>& fields, const PathState& before) = 0;
+
+  const SeriesDescription Of;
+  const std::vector<std::string> Paths;
+  const std::vector<PathState> Before;
+  std::vector<std::vector<float>> Samples; ///< by field, of the step that is written next
+};
+
+class GeoTiffs : public FilePerStep
+{
+public:
+  using FilePerStep::FilePerStep;
+
+private:
+  void writeFile(const std::string& path, const std::vector<std::size_t>& fields,
+    const PathState& before) override
+  {
+    RasterDescription raster;
+    raster.Grid = gridOf(this->Of.Grid);
+    raster.Crs = this->Of.Crs;
+    raster.NoData = this->Of.NoData;
+    raster.Threads = this->Of.Threads;
+    BandValues bands;
+    for (const std::size_t field : fields)
+    {
+      raster.Bands.push_back(this->Of.Fields[field].Name);
+      bands.emplace_back(this->Samples[field].begin(), this->Samples[field].end());
+    }
+    const auto writer = createRaster(path, raster, before);
+    writeTiles(*writer, raster.Grid, readFrom(raster.Grid, bands), {}, raster.Threads);
+    if (writer->hidden() > 0)
+    {
+      throw IOError(
+        path, "would lose values that equal the number for no value; give another --null.");
+    }
+    writer->close();
+  }
+};
+
+/// .vti files, and the .pvd that lists them with their times.
+class ParaViewFiles : public FilePerStep
+{
+public:
+  ParaViewFiles(const std::string& path, const SeriesDescription& description,
+    const std::vector<std::string>& paths, const std::vector<PathState>& before)
+    : FilePerStep(description, paths, before)
+    , List(path, before.back())
+  {
+  }
+
+  void close() override
+  {
+    std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n"
+                       "<Collection>\n";
+    for (std::size_t i = 0; i < this->Of.Times.size(); ++i)
+    {
+      char time[64];
+      std::snprintf(time, sizeof time, "%.17g", this->Of.Times[i]);
+      text += "<DataSet timestep=\"" + std::string(time) + "\" file=\"" +
+        escapedXml(fs::path(this->Paths[i]).filename().string()) + "\"/>\n";
+    }
+    text += "</Collection>\n</VTKFile>\n";
+    this->List.file().write(0, text.data(), text.size());
+    this->List.commit();
+  }
+
+private:
+  void writeFile(const std::string& path, const std::vector<std::size_t>& fields,
+    const PathState& before) override
+  {
+    vtkNew<vtkImageData> image;
+    const Lattice& grid = this->Of.Grid;
+    image->SetDimensions(int(grid.size(0)), int(grid.size(1)), 1);
+    image->SetOrigin(grid.Min[0], grid.Min[1], 0);
+    image->SetSpacing(grid.Delta[0], grid.Delta[1], 1);
+    for (const std::size_t field : fields)
+    {
+      vtkNew<vtkFloatArray> array;
+      array->SetName(this->Of.Fields[field].Name.c_str());
+      // VTK does not change the memory of an array that it is told to save.
+      array->SetArray(this->Samples[field].data(), vtkIdType(this->Samples[field].size()), 1);
+      image->GetPointData()->AddArray(array);
+    }
+    writeXmlFile(path, before, image);
+  }
+
+  PendingFile List;
+};
+
+class NpySeries : public SeriesOutput
+{
+public:
+  NpySeries(const std::string& path, const SeriesDescription& of, const PathState& before)
+    : Bytes(std::size_t(of.Grid.samples()) * sizeof(float))
+    , Writer(path, "<f4", shapeOf(of), before)
+  {
+  }
+
+  void write(std::size_t, std::size_t, const float* samples) override
+  {
+    this->Writer.write(samples, this->Bytes);
+  }
+  void close() override { this->Writer.close(); }
+
+private:
+  static std::vector<std::int64_t> shapeOf(const SeriesDescription& of)
+  {
+    std::vector<std::int64_t> shape = { of.Grid.size(1), of.Grid.size(0) };
+    if (of.Fields[0].Varies)
+    {
+      shape.insert(shape.begin(), std::int64_t(of.Times.size()));
+    }
+    return shape;
+  }
+
+  const std::size_t Bytes;
+  NpyWriter Writer;
+};
+
+} // namespace
+
+SeriesFiles::SeriesFiles(
+  std::string path, SeriesDescription description, std::vector<std::size_t> numbers)
+  : Path(std::move(path))
+  , Of(std::move(description))
+  , Numbers(std::move(numbers))
+{
+  if (this->Of.Fields.empty())
+  {
+    throw IOError(this->Path, "would have no field; name arrays of the mesh.");
+  }
+  if (openerOf(this->Path, Use::WritesSeries) == Opener::Npy && this->Of.Fields.size() > 1)
+  {
+    throw IOError(this->Path,
+      "holds one array, and there would be " + std::to_string(this->Of.Fields.size()) +
+        "; name one with --arrays, with one --reduce or none, or write .nc.");
+  }
+}
+
+std::vector<std::string> SeriesFiles::paths() const
+{
+  const Opener opener = openerOf(this->Path, Use::WritesSeries);
+  const bool hasSteps = !fieldsOf(this->Of, true).empty();
+  const bool hasOthers = !fieldsOf(this->Of, false).empty();
+  if (opener == Opener::Netcdf || opener == Opener::Npy || !hasSteps ||
+    (opener == Opener::GeoTiff && this->Numbers.size() == 1 && !hasOthers))
+  {
+    return { this->Path };
+  }
+  const bool isTiff = opener == Opener::GeoTiff;
+  std::vector<std::string> paths;
+  for (const std::size_t number : this->Numbers)
+  {
+    paths.push_back(stepPath(this->Path, number, isTiff ? extensionOf(this->Path) : ".vti"));
+  }
+  if (hasOthers)
+  {
+    paths.push_back(isTiff ? this->Path : fs::path(this->Path).replace_extension(".vti").string());
+  }
+  if (!isTiff)
+  {
+    paths.push_back(this->Path);
+  }
+  return paths;
+}
+
+std::unique_ptr<SeriesOutput> SeriesFiles::create(const std::vector<PathState>& before) const
+{
+  switch (openerOf(this->Path, Use::WritesSeries))
+  {
+    case Opener::Netcdf:
+      return createNetcdfSeries(this->Path, this->Of, before.front());
+    case Opener::Npy:
+      return std::make_unique<NpySeries>(this->Path, this->Of, before.front());
+    case Opener::GeoTiff:
+      return std::make_unique<GeoTiffs>(this->Of, this->paths(), before);
+    default:
+      return std::make_unique<ParaViewFiles>(this->Path, this->Of, this->paths(), before);
+  }
+}
+
+} // namespace tipp

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Series/FlatSeries.h"
+
+#include "Files/IOError.h"
+#include "Files/RawValues.h"
+#include "Flat/FlatMesh.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace tipp
+{
+namespace
+{
+
+/// Reads one component of all tuples of an array.
+std::vector<double> readComponent(const RawArray& array, int component)
+{
+  const InputFile file(array.Path);
+  std::vector<double> values(std::size_t(array.Tuples));
+  const std::size_t size = scalarSize(array.Type);
+  const std::size_t tuple = array.tupleBytes();
+  // Whole tuples at a time.
+  const std::size_t most = std::max<std::size_t>(1, (std::size_t(1) << 20) / tuple);
+  std::vector<char> bytes(most * tuple);
+  for (std::size_t first = 0; first < values.size(); first += most)
+  {
+    const std::size_t count = std::min(most, values.size() - first);
+    file.read(array.Offset + first * tuple, bytes.data(), count * tuple);
+    withScalar(array.Type,
+      [&](auto type)
+      {
+        const char* from = bytes.data() + std::size_t(component) * size;
+        for (std::size_t i = 0; i < count; ++i, from += tuple)
+        {
+          values[first + i] = double(valueAt<decltype(type)>(from));
+        }
+      });
+  }
+  return values;
+}
+
+class FlatSeries : public MeshSeries
+{
+public:
+  explicit FlatSeries(const std::string& path)
+    : Mesh(openFlatMesh(path))
+  {
+    if (this->Mesh.CellSize != 3)
+    {
+      throw IOError(
+        path, "has tetrahedra, and time steps are resampled in the plane; give triangles.");
+    }
+    this->Path = path;
+    this->Nodes = this->Mesh.Points.Tuples;
+    this->Times = this->Mesh.Times;
+    for (const bool onCells : { false, true })
+    {
+      for (const RawArray& array : onCells ? this->Mesh.CellData : this->Mesh.PointData)
+      {
+        this->add({ array }, onCells, false);
+      }
+      for (const std::vector<RawArray>& steps :
+        onCells ? this->Mesh.CellSeries : this->Mesh.PointSeries)
+      {
+        this->add(steps, onCells, true);
+      }
+    }
+    if (this->Mesh.Points.Components == 3)
+    {
+      RawArray points = this->Mesh.Points;
+      points.Name = "elevation";
+      this->Sources.push_back({ { points }, 2 });
+      this->Variables.push_back({ points.Name, "", "", points.Type, false, false });
+    }
+  }
+
+  SeriesMesh readMesh() override
+  {
+    SeriesMesh mesh;
+    const std::vector<double> x = readComponent(this->Mesh.Points, 0);
+    const std::vector<double> y = readComponent(this->Mesh.Points, 1);
+    mesh.XY.resize(2 * x.size());
+    for (std::size_t i = 0; i < x.size(); ++i)
+    {
+      mesh.XY[2 * i] = x[i];
+      mesh.XY[2 * i + 1] = y[i];
+    }
+    CellReader(this->Mesh).read(0, this->Mesh.Cells.Tuples, mesh.Triangles);
+    return mesh;
+  }
+
+  void read(std::size_t variable, std::size_t step, std::vector<double>& values) override
+  {
+    const Source& source = this->Sources[variable];
+    values =
+      readComponent(source.Steps[this->Variables[variable].Varies ? step : 0], source.Component);
+  }
+
+private:
+  /// Where a variable is: its array at each step.
+  struct Source
+  {
+    std::vector<RawArray> Steps;
+    int Component;
+  };
+
+  void add(const std::vector<RawArray>& steps, bool onCells, bool varies)
+  {
+    const RawArray& first = steps.front();
+    for (int i = 0; i < first.Components; ++i)
+    {
+      const std::string name =
+        first.Components == 1 ? first.Name : first.Name + "_" + std::to_string(i);
+      this->Variables.push_back({ name, "", "", first.Type, onCells, varies });
+      this->Sources.push_back({ steps, i });
+    }
+  }
+
+  FlatMesh Mesh;
+  std::vector<Source> Sources; ///< by variable
+};
+
+} // namespace
+
+std::unique_ptr<MeshSeries> openFlatSeries(const std::string& path)
+{
+  return std::make_unique<FlatSeries>(path);
+}
+
+} // namespace tipp

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippFlatSeries_h
+#define tippFlatSeries_h
+
+#include "Series/MeshSeries.h"
+#include "vtkTIPPIOModule.h"
+
+#include <memory>
+#include <string>
+
+namespace tipp
+{
+
+/// Opens a flat mesh (see openFlatMesh()) of triangles as a MeshSeries. Arrays of several
+/// components become a variable for each, with _0, _1 ... after their name; a third coordinate of
+/// the points is the variable "elevation". Throws IOError.
+VTKTIPPIO_EXPORT std::unique_ptr<MeshSeries> openFlatSeries(const std::string& path);
+
+} // namespace tipp
+
+#endif

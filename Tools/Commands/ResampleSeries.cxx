@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Series/ResampleSeries.h"
+#include "Commands/PointArguments.h"
+#include "Commands/Report.h"
+#include "Commands/ResampleArguments.h"
+#include "Console/Process.h"
+#include "Crs/ReferenceSystem.h"
+#include "Files/IOError.h"
+#include "Files/TextFile.h"
+#include "Flat/FlatMesh.h"
+#include "Parallel/Stopwatch.h"
+#include "Raster/RasterFile.h"
+#include "Series/FlatSeries.h"
+#include "Series/SeriesFiles.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <set>
+#include <utility>
+
+namespace tipp
+{
+namespace
+{
+
+[[noreturn]] void refuseSteps(const std::string& text, const std::string& path)
+{
+  throw IOError(path,
+    "has no time steps '" + text + "'; give a number, all or FIRST:LAST:STRIDE, such as 0:99:10.");
+}
+
+/// Splits FIRST:LAST:STRIDE; a part that is left out keeps its value.
+void parseRange(const std::string& text, std::vector<std::int64_t>& parts, const std::string& path)
+{
+  std::vector<std::string_view> fields;
+  splitFields(text, ':', fields);
+  if (fields.size() > parts.size())
+  {
+    refuseSteps(text, path);
+  }
+  for (std::size_t i = 0; i < fields.size(); ++i)
+  {
+    if (!fields[i].empty() && !parseInteger(fields[i], parts[i]))
+    {
+      refuseSteps(text, path);
+    }
+  }
+}
+
+} // namespace
+
+std::vector<std::size_t> parseSteps(
+  const std::string& text, std::size_t count, const std::string& path)
+{
+  const auto last = std::int64_t(count) - 1;
+  std::vector<std::int64_t> parts = { 0, last, 1 };
+  if (text.find(':') != std::string::npos)
+  {
+    parseRange(text, parts, path);
+  }
+  else if (text != "all")
+  {
+    if (!text.empty() && !parseInteger(text, parts[0]))
+    {
+      refuseSteps(text, path);
+    }
+    parts[1] = parts[0];
+  }
+  const bool isStatic = count == 0 && parts[0] == 0 && text.find(':') == std::string::npos;
+  if (isStatic)
+  {
+    return { 0 };
+  }
+  if (parts[0] < 0 || parts[1] > last || parts[0] > parts[1] || parts[2] < 1)
+  {
+    throw IOError(path,
+      "has no time step " + (text.empty() ? "0" : text) + "; there are " + std::to_string(count) +
+        ", counted from 0.");
+  }
+  std::vector<std::size_t> steps;
+  for (std::int64_t step = parts[0]; step <= parts[1]; step += parts[2])
+  {
+    steps.push_back(std::size_t(step));
+  }
+  return steps;
+}
+
+bool isSeriesRun(const ResampleArguments& arguments)
+{
+  const bool isOneStep = std::all_of(
+    arguments.Step.begin(), arguments.Step.end(), [](char c) { return c >= '0' && c <= '9'; });
+  return !isOneStep || !arguments.Reduce.empty() || !arguments.Waterline.empty() ||
+    !arguments.Values.empty() || arguments.Wrap || isMeshSeries(arguments.Input) ||
+    !formatOf(arguments.Output, Use::WritesRasters);
+}
+
+namespace
+{
+
+void refuseOthers(const ResampleArguments& arguments)
+{
+  refuseIf(arguments.Method != "linear", "--method", "conservative is for single steps: --step N");
+  refuseIf(arguments.Device != "auto" && arguments.Device != "openmp", "--device",
+    "must be openmp for time steps");
+  refuseIf(arguments.Null && openerOf(arguments.Output, Use::WritesSeries) != Opener::GeoTiff,
+    "--null", "is for .tif; samples of time steps that have no value are NaN");
+  refuseIf(!formatOf(arguments.Output, Use::WritesSeries), "--output",
+    "must end in " + listFormats(Use::WritesSeries) + " for time steps");
+  refuseIf(arguments.WithSteps && arguments.Reduce.empty(), "--with-steps", "needs --reduce");
+}
+
+std::unique_ptr<MeshSeries> openSeries(const ResampleArguments& arguments)
+{
+  if (isMeshSeries(arguments.Input))
+  {
+    SeriesOptions options;
+    options.Values = arguments.Values;
+    options.Wrap = arguments.Wrap;
+    return openMeshSeries(arguments.Input, options);
+  }
+  if (!isFlatMesh(arguments.Input))
+  {
+    throw IOError(arguments.Input,
+      "is not a mesh with time steps that are resampled one after another; flatten it first, as "
+      "with 'tipp flatten " +
+        arguments.Input + " -o mesh'.");
+  }
+  refuseIf(!arguments.Values.empty(), "--values", "is not for a flat mesh, which has all values");
+  refuseIf(arguments.Wrap, "--wrap", "is not for a flat mesh; give it to 'tipp flatten'");
+  return openFlatSeries(arguments.Input);
+}
+
+std::size_t indexOf(const MeshSeries& series, const std::string& name)
+{
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < series.Variables.size(); ++i)
+  {
+    if (series.Variables[i].Name == name)
+    {
+      return i;
+    }
+    names.insert(series.Variables[i].Name);
+  }
+  throw IOError(series.Path, "has no array '" + name + "'" + listOfNames(names, "; it has ") + ".");
+}
+
+std::vector<std::size_t> variablesOf(const MeshSeries& series, const ResampleArguments& arguments)
+{
+  std::vector<std::size_t> variables;
+  for (const std::string& name : arguments.Arrays)
+  {
+    variables.push_back(indexOf(series, name));
+  }
+  const bool isAll = arguments.Arrays.empty();
+  for (std::size_t i = 0; isAll && i < series.Variables.size(); ++i)
+  {
+    // Reductions are of what varies.
+    if (series.Variables[i].Varies || arguments.Reduce.empty() || arguments.WithSteps)
+    {
+      variables.push_back(i);
+    }
+  }
+  return variables;
+}
+
+/// The variable of --waterline. Throws IOError if it does not fit.
+std::size_t depthOf(const MeshSeries& series, const SeriesPlan& plan, const std::string& name)
+{
+  const std::size_t depth = indexOf(series, name);
+  const auto isLevel = [&series](std::size_t i)
+  { return series.Variables[i].Varies && !series.Variables[i].OnCells; };
+  if (series.Variables[depth].OnCells || series.Variables[depth].Varies)
+  {
+    throw IOError(series.Path,
+      "has '" + name + "', but --waterline needs depths at nodes that do not vary in time.");
+  }
+  if (plan.Variables.size() != 1 || !isLevel(plan.Variables[0]))
+  {
+    throw IOError(series.Path,
+      "has several arrays, and --waterline is for one, a water level at nodes that varies in time; "
+      "name it with --arrays.");
+  }
+  return depth;
+}
+
+SeriesPlan planOf(const MeshSeries& series, const ResampleArguments& arguments)
+{
+  SeriesPlan plan;
+  plan.Variables = variablesOf(series, arguments);
+  for (const std::string& text : arguments.Reduce)
+  {
+    const std::optional<SeriesReduction> reduction = SeriesReduction::parse(text);
+    refuseIf(
+      !reduction, "--reduce", "is '" + text + "'; give max, min, mean, time-of-max or above:LEVEL");
+    plan.Reductions.push_back(*reduction);
+  }
+  plan.WritesSteps = arguments.Reduce.empty() || arguments.WithSteps;
+  if (!series.Times.empty())
+  {
+    const std::string steps = arguments.Step.empty() ? "all" : arguments.Step;
+    plan.Steps = parseSteps(steps, series.Times.size(), series.Path);
+  }
+  else
+  {
+    parseSteps(arguments.Step, 0, series.Path);
+    refuseIf(
+      !arguments.Reduce.empty(), "--reduce", "needs time steps, and " + series.Path + " has none");
+  }
+  if (!arguments.Waterline.empty())
+  {
+    plan.Depth = depthOf(series, plan, arguments.Waterline);
+  }
+  plan.NoData = arguments.NoData;
+  plan.Threads = threadCount(arguments.Threads);
+  return plan;
+}
+
+SeriesRange rangeOf(const ResampleArguments& arguments)
+{
+  SeriesRange range;
+  if (!arguments.Bounds.empty())
+  {
+    const std::vector<double>& b = arguments.Bounds;
+    range.Bounds = Box2{ { b[0], b[2] }, { b[1], b[3] } };
+  }
+  if (!arguments.Dimensions.empty())
+  {
+    range.Dimensions = { arguments.Dimensions[0], arguments.Dimensions[1] };
+  }
+  if (!arguments.Delta.empty())
+  {
+    range.Delta = { arguments.Delta[0], arguments.Delta[1] };
+  }
+  return range;
+}
+
+void summarize(const ResampleArguments& arguments, const SeriesSamples& samples,
+  const SeriesPlan& plan, double finding, const SeriesTimes& times)
+{
+  fmt::print(
+    "{} of {} samples, {} arrays, {}, {:.3f} s to find the samples, {:.3f} s sampling, "
+    "{:.3f} s reducing, {:.3f} s reading, {:.3f} s writing, peak memory {:.0f} MB, in {}\n",
+    samples.Kept.inside(), samples.Kept.samples(), plan.Variables.size(),
+    counted(std::int64_t(plan.Steps.size()), "step", "steps"), finding, times.Sampling,
+    times.Reducing, times.Reading, times.Writing, double(peakMemoryBytes()) / 1e6,
+    arguments.Output);
+}
+
+} // namespace
+
+int runSeries(const ResampleArguments& arguments)
+{
+  refuseOthers(arguments);
+  const std::unique_ptr<MeshSeries> series = openSeries(arguments);
+  SeriesPlan plan = planOf(*series, arguments);
+  if (!arguments.Crs.empty())
+  {
+    series->Crs = arguments.Crs;
+    requireCrs(arguments.Crs);
+  }
+  // Check the paths before the computation.
+  SeriesDescription description = describeSeries(*series, plan, Lattice());
+  std::vector<PathState> before;
+  std::vector<std::string> inputs = arguments.Values;
+  inputs.push_back(arguments.Input);
+  for (const std::string& path : SeriesFiles(arguments.Output, description, plan.Steps).paths())
+  {
+    before.push_back(requireWritable(path, "", inputs));
+  }
+  const auto bar = std::make_unique<ProgressBar>("resampling");
+  const Report report = progressOn(bar);
+  const Stopwatch watch;
+  const std::optional<SeriesSamples> samples =
+    findSamples(*series, rangeOf(arguments), plan.Threads, partOf(report, 0, 0.1));
+  if (!samples)
+  {
+    return reportInterrupt();
+  }
+  const double finding = watch.seconds();
+  plan.Progress = partOf(report, 0.1, 1);
+  description.Grid = samples->Grid;
+  description.NoData = arguments.Null.value_or(description.NoData);
+  const std::unique_ptr<SeriesOutput> output =
+    SeriesFiles(arguments.Output, description, plan.Steps).create(before);
+  const std::optional<SeriesTimes> times = resampleSeries(*series, *samples, plan, *output);
+  if (!times)
+  {
+    return reportInterrupt();
+  }
+  output->close();
+  summarize(arguments, *samples, plan, finding, *times);
+  return Success;
+}
+
+} // namespace tipp
