@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Netcdf/NetcdfLibrary.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <stdexcept>
+#include <utility>
+
+#include <netcdf.h>
+
+namespace tipp
+{
+namespace
+{
+
+void check(int status)
+{
+  if (status == NC_ENOFILTER || status == NC_EFILTER)
+  {
+    throw std::runtime_error("it is compressed by a method that the HDF5 library here does not "
+                             "have; install its plugin, or convert the file by 'nccopy -d 1'");
+  }
+  if (status != NC_NOERR)
+  {
+    throw std::runtime_error(nc_strerror(status));
+  }
+}
+
+std::optional<Scalar> scalarOfNetcdf(nc_type type)
+{
+  constexpr std::array<std::pair<nc_type, Scalar>, 10> types = { { { NC_BYTE, Scalar::Int8 },
+    { NC_UBYTE, Scalar::UInt8 }, { NC_SHORT, Scalar::Int16 }, { NC_USHORT, Scalar::UInt16 },
+    { NC_INT, Scalar::Int32 }, { NC_UINT, Scalar::UInt32 }, { NC_INT64, Scalar::Int64 },
+    { NC_UINT64, Scalar::UInt64 }, { NC_FLOAT, Scalar::Float32 },
+    { NC_DOUBLE, Scalar::Float64 } } };
+  const auto* const found = std::find_if(
+    types.begin(), types.end(), [type](const auto& pair) { return pair.first == type; });
+  return found == types.end() ? std::nullopt : std::make_optional(found->second);
+}
+
+std::string stringAttribute(int file, int variable, const char* name, std::size_t length)
+{
+  std::vector<char*> texts(length, nullptr);
+  check(nc_get_att_string(file, variable, name, texts.data()));
+  std::string joined;
+  for (const char* text : texts)
+  {
+    joined += (joined.empty() ? "" : " ") + std::string(text ? text : "");
+  }
+  nc_free_string(length, texts.data());
+  return joined;
+}
+
+} // namespace
+
+NetcdfLibrary::~NetcdfLibrary()
+{
+  if (this->File >= 0)
+  {
+    nc_close(this->File);
+  }
+}
+
+NetcdfContent NetcdfLibrary::open(const std::string& path)
+{
+  // Locks fail on many file systems of clusters, and a model may still be writing the file.
+  setenv("HDF5_USE_FILE_LOCKING", "FALSE", 0);
+  check(nc_open(path.c_str(), NC_NOWRITE, &this->File));
+  int dimensions = 0;
+  int variables = 0;
+  int attributes = 0;
+  check(nc_inq(this->File, &dimensions, &variables, &attributes, nullptr));
+  NetcdfContent content;
+  for (int i = 0; i < dimensions; ++i)
+  {
+    std::array<char, NC_MAX_NAME + 1> name{};
+    std::size_t size = 0;
+    check(nc_inq_dim(this->File, i, name.data(), &size));
+    content.Dimensions.push_back({ name.data(), std::int64_t(size) });
+  }
+  for (int i = 0; i < variables; ++i)
+  {
+    content.Variables.push_back(this->describe(i));
+  }
+  content.Attributes = this->attributesOf(NC_GLOBAL, attributes);
+  this->Cached.assign(std::size_t(variables), false);
+  return content;
+}
+
+NetcdfVariable NetcdfLibrary::describe(int id) const
+{
+  std::array<char, NC_MAX_NAME + 1> name{};
+  std::array<int, NC_MAX_VAR_DIMS> dimensions{};
+  nc_type type = NC_NAT;
+  int count = 0;
+  int attributes = 0;
+  check(nc_inq_var(this->File, id, name.data(), &type, &count, dimensions.data(), &attributes));
+  NetcdfVariable variable;
+  variable.Name = name.data();
+  variable.Id = id;
+  variable.Type = scalarOfNetcdf(type);
+  variable.IsText = type == NC_CHAR;
+  variable.Dimensions.assign(dimensions.begin(), dimensions.begin() + count);
+  variable.Attributes = this->attributesOf(id, attributes);
+  return variable;
+}
+
+std::vector<NetcdfAttribute> NetcdfLibrary::attributesOf(int variable, int count) const
+{
+  std::vector<NetcdfAttribute> attributes;
+  for (int i = 0; i < count; ++i)
+  {
+    attributes.push_back(this->attributeOf(variable, i));
+  }
+  return attributes;
+}
+
+NetcdfAttribute NetcdfLibrary::attributeOf(int variable, int index) const
+{
+  constexpr std::size_t mostNumbers = std::size_t(1) << 16; // no convention has longer ones
+  std::array<char, NC_MAX_NAME + 1> name{};
+  check(nc_inq_attname(this->File, variable, index, name.data()));
+  nc_type type = NC_NAT;
+  std::size_t length = 0;
+  check(nc_inq_att(this->File, variable, name.data(), &type, &length));
+  NetcdfAttribute attribute;
+  attribute.Name = name.data();
+  attribute.IsFloat = type == NC_FLOAT;
+  if (length > 16 * mostNumbers)
+  {
+    return attribute;
+  }
+  if (type == NC_CHAR)
+  {
+    attribute.Text.resize(length);
+    check(nc_get_att_text(this->File, variable, name.data(), attribute.Text.data()));
+    attribute.Text.erase(std::min(attribute.Text.find('\0'), attribute.Text.size()));
+  }
+  else if (type == NC_STRING && length <= mostNumbers)
+  {
+    attribute.Text = stringAttribute(this->File, variable, name.data(), length);
+  }
+  else if (scalarOfNetcdf(type) && length <= mostNumbers)
+  {
+    attribute.Numbers.resize(length);
+    check(nc_get_att_double(this->File, variable, name.data(), attribute.Numbers.data()));
+  }
+  return attribute;
+}
+
+/// Chunks may hold several steps: lets the library keep all chunks that a step needs, so that the
+/// next step does not decompress them again.
+void NetcdfLibrary::enlargeCache(int variable)
+{
+  constexpr std::size_t most = std::size_t(512) << 20;
+  std::array<int, NC_MAX_VAR_DIMS> dimensions{};
+  std::array<std::size_t, NC_MAX_VAR_DIMS> chunk{};
+  int count = 0;
+  int storage = NC_CONTIGUOUS;
+  nc_type type = NC_NAT;
+  std::size_t bytes = 0;
+  if (nc_inq_var(this->File, variable, nullptr, &type, &count, dimensions.data(), nullptr) != 0 ||
+    nc_inq_var_chunking(this->File, variable, &storage, chunk.data()) != 0 ||
+    nc_inq_type(this->File, type, nullptr, &bytes) != 0 || storage != NC_CHUNKED || count == 0)
+  {
+    return;
+  }
+  double needed = double(bytes) * double(chunk[0]);
+  std::size_t chunks = 1;
+  for (int i = 1; i < count; ++i)
+  {
+    std::size_t size = 0;
+    nc_inq_dimlen(this->File, dimensions[std::size_t(i)], &size);
+    const std::size_t side = std::max<std::size_t>(chunk[std::size_t(i)], 1);
+    const std::size_t along = size / side + (size % side != 0 ? 1 : 0);
+    needed *= double(along) * double(side);
+    chunks *= std::max<std::size_t>(along, 1);
+  }
+  constexpr std::size_t usual = std::size_t(16) << 20;
+  if (needed > double(usual) && needed <= double(most))
+  {
+    nc_set_var_chunk_cache(
+      this->File, variable, std::size_t(needed) + usual, 10 * chunks + 1009, 0.75F);
+  }
+}
+
+void NetcdfLibrary::read(const NetcdfPart& part, void* to)
+{
+  if (part.Variable < 0 || std::size_t(part.Variable) >= this->Cached.size())
+  {
+    throw std::runtime_error("there is no such variable");
+  }
+  if (!this->Cached[std::size_t(part.Variable)])
+  {
+    this->enlargeCache(part.Variable);
+    this->Cached[std::size_t(part.Variable)] = true;
+  }
+  const std::vector<std::size_t> start(part.Start.begin(), part.Start.end());
+  const std::vector<std::size_t> count(part.Count.begin(), part.Count.end());
+  check(nc_get_vara(this->File, part.Variable, start.data(), count.data(), to));
+}
+
+} // namespace tipp
