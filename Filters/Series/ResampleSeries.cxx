@@ -4,7 +4,6 @@
 #include "Files/IOError.h"
 #include "Parallel/BoundsOf.h"
 #include "Parallel/Stopwatch.h"
-#include "Raster/RasterFile.h"
 #include "Sampling/SamplingLattice.h"
 
 #include <algorithm>
@@ -226,9 +225,11 @@ private:
     for (double& value : values)
     {
       value = value == this->Plan.NoData ? std::numeric_limits<double>::quiet_NaN() : value;
-      if (std::fabs(value) > double(std::numeric_limits<float>::max()))
+      if (std::isfinite(value) && std::isinf(float(value)))
       {
-        requireSingle(value, name);
+        throw IOError(this->Series.Path,
+          "has " + std::to_string(value) + " in '" + name +
+            "', which 32 bits do not hold; name other arrays with --arrays.");
       }
     }
     this->Times.Reading += watch.seconds();

@@ -71,5 +71,5 @@ TEST(FlatSeries, RefusesTetrahedra)
   const FlatFolderMaker folder;
   folder.write<std::int32_t>("cells.npy", "<i4", "(1, 4)", { 0, 1, 2, 3 });
   folder.write<float>("points.npy", "<f4", "(4, 3)", { 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1 });
-  expectIOError([&] { openFlatSeries(folder.path()); }, "has tetrahedra");
+  expectIOError(folder.path(), "has tetrahedra", [&] { openFlatSeries(folder.path()); });
 }

@@ -299,7 +299,8 @@ TEST(ResampleSeries, RefusesValuesTooLargeForItsSamples)
   const auto samples = findSamples(series, rangeOf(20), 1);
   Kept output;
   output.Size = std::size_t(samples->Kept.samples());
-  expectIOError([&] { resampleSeries(series, *samples, plan, output); }, "level");
+  expectIOError(
+    "basin", "which 32 bits do not hold", [&] { resampleSeries(series, *samples, plan, output); });
 }
 
 TEST(ResampleSeries, NamesARangeBesideTheMesh)
@@ -307,7 +308,7 @@ TEST(ResampleSeries, NamesARangeBesideTheMesh)
   Basin series(1);
   SeriesRange range = rangeOf(20);
   range.Bounds = Box2{ { 5, 5 }, { 6, 6 } };
-  expectIOError([&] { findSamples(series, range, 1); }, "has nothing in --bounds");
+  expectIOError("basin", "has nothing in --bounds", [&] { findSamples(series, range, 1); });
 }
 
 TEST(ResampleSeries, StopsWhenTheCallerWishes)

@@ -1,74 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Netcdf/NetcdfFile.h"
-#include "Npy/NpyFile.h"
 #include "Raster/ReadRaster.h"
-#include "RunTipp.h"
+#include "TippSeries.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
-#include <filesystem>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 using namespace tipp;
 using namespace tipp::test;
-
-namespace
-{
-
-using Words = std::vector<std::string>;
-
-/// A folder with the flat mesh "surge": a unit square whose level is x + 10 * step at four steps,
-/// dry (-99999) at the corner (1, 1) from step 2 on, and whose depth is y.
-class TippResampleSeries : public testing::Test
-{
-protected:
-  TippResampleSeries()
-  {
-    std::filesystem::create_directories(this->Folder.path("surge/point_data"));
-    this->write<std::int32_t>("cells", "<i4", "(2, 3)", { 0, 1, 3, 1, 2, 3 });
-    this->write<double>("points", "<f8", "(4, 2)", { 0, 0, 1, 0, 1, 1, 0, 1 });
-    this->write<double>("time", "<f8", "(4,)", { 0, 60, 120, 240 });
-    this->write<double>("point_data/level", "<f8", "(4, 4)",
-      { 0, 1, 1, 0, 10, 11, 11, 10, 20, 21, -99999, 20, 30, 31, -99999, 30 });
-    this->write<double>("point_data/depth", "<f8", "(4,)", { 0, 0, 1, 1 });
-  }
-
-  template <typename Value>
-  void write(const std::string& name, const std::string& descr, const std::string& shape,
-    const std::vector<Value>& values) const
-  {
-    this->Folder.file("surge/" + name + ".npy", npyBytes(npyHeader(descr, shape), bytesOf(values)));
-  }
-
-  /// Runs `tipp resample surge` with five samples along each axis.
-  Outcome run(const Words& more, const std::string& grid = "--resolution=0.25") const
-  {
-    Words words = { "resample", "surge", grid };
-    words.insert(words.end(), more.begin(), more.end());
-    return runTipp(this->Folder, words);
-  }
-
-  std::vector<float> readNpy(const std::string& name, const std::string& shape) const
-  {
-    const InputFile file(this->Folder.path(name));
-    const NpyArray array = openNpyArray(file);
-    EXPECT_EQ(shape, array.shapeText());
-    EXPECT_EQ(Scalar::Float32, array.Type);
-    std::vector<float> values((file.size() - array.Offset) / sizeof(float));
-    file.read(array.Offset, values.data(), values.size() * sizeof(float));
-    return values;
-  }
-
-  bool exists(const std::string& name) const
-  {
-    return std::filesystem::exists(this->Folder.path(name));
-  }
-
-  TemporaryFolder Folder;
-};
-
-} // namespace
 
 TEST_F(TippResampleSeries, WritesAllStepsAsOneArray)
 {
@@ -89,9 +32,6 @@ TEST_F(TippResampleSeries, TakesStepsByFirstLastAndStride)
     std::vector<std::tuple<std::string, float, std::string>>{ { "1:3:2", 10, "2" },
       { ":2", 0, "3" }, { "2:", 20, "2" }, { "::3", 0, "2" }, { "3:3", 30, "1" } })
   {
-    const Outcome outcome = this->run(
-      { "-o", "some.npy", "--step", steps, "--arrays", "level", "--with-steps", "--reduce" });
-    EXPECT_NE(0, outcome.ExitCode);
     ASSERT_EQ(0, this->run({ "-o", "some.npy", "--step", steps, "--arrays", "level" }).ExitCode);
     EXPECT_EQ(first, this->readNpy("some.npy", count + " x 5 x 5")[0]) << steps;
   }
@@ -157,29 +97,6 @@ TEST_F(TippResampleSeries, ListsImagesForParaView)
   EXPECT_NE(contentOf(this->Folder.path("maps.vti")).find("Name=\"depth\""), std::string::npos);
 }
 
-TEST_F(TippResampleSeries, WritesNetcdfInTheMannerOfCf)
-{
-  const Outcome outcome =
-    this->run({ "-o", "maps.nc", "--step", "all", "--no-data=-99999", "--crs", "EPSG:4326" });
-  ASSERT_EQ(0, outcome.ExitCode) << outcome.Err;
-  NetcdfFile file(this->Folder.path("maps.nc"));
-  const NetcdfContent& content = file.content();
-  const NetcdfVariable* const level = content.find("level");
-  ASSERT_NE(nullptr, level);
-  EXPECT_EQ((std::vector<std::int64_t>{ 4, 5, 5 }), content.shape(*level));
-  EXPECT_EQ(Scalar::Float32, level->Type);
-  EXPECT_EQ((std::vector<std::int64_t>{ 5, 5 }), content.shape(*content.find("depth")));
-  EXPECT_EQ((std::vector<double>{ 0, 60, 120, 240 }), file.read(*content.find("time")));
-  EXPECT_EQ((std::vector<double>{ 0, 0.25, 0.5, 0.75, 1 }), file.read(*content.find("lon")));
-  EXPECT_EQ("degrees_north", content.find("lat")->text("units"));
-  EXPECT_EQ("crs", level->text("grid_mapping"));
-  EXPECT_EQ("latitude_longitude", content.find("crs")->text("grid_mapping_name"));
-  EXPECT_EQ(0u, content.find("crs")->text("crs_wkt").find("GEOGCS"));
-  const std::vector<double> values = file.read(*level);
-  EXPECT_EQ(20.25, values[51]);
-  EXPECT_TRUE(std::isnan(values[74]));
-}
-
 TEST_F(TippResampleSeries, DrawsTheWaterline)
 {
   const Words words = { "-o", "water.npy", "--step", "2:2", "--arrays", "level",
@@ -196,7 +113,7 @@ TEST_F(TippResampleSeries, ExplainsWhatDoesNotFit)
   const std::vector<std::pair<Words, std::string>> wrong = {
     { { "-o", "a.npy", "--step", "all" }, "holds one array, and there would be 2" },
     { { "-o", "a.nc", "--step", "all", "--arrays", "speed" },
-      "has no array 'speed'; it has depth" },
+      "has no array 'speed'; it has 'depth', 'level'" },
     { { "-o", "a.nc", "--reduce", "median" }, "give max, min, mean" },
     { { "-o", "a.nc", "--step", "all", "--method", "conservative" }, "conservative is for single" },
     { { "-o", "a.nc", "--step", "all", "--device", "opencl" }, "must be openmp" },
