@@ -36,6 +36,11 @@ vtkStandardNewMacro(vtkRangeResampleFilter);
 
 using Pipeline = vtkStreamingDemandDrivenPipeline;
 
+/// What is kept from one time step to the next.
+class vtkRangeResampleFilter::Kept : public tipp::KeptClaims
+{
+};
+
 vtkRangeResampleFilter::vtkRangeResampleFilter()
 {
   this->PointDataArraySelection->SetUnknownArraySetting(1);
@@ -47,6 +52,8 @@ vtkRangeResampleFilter::vtkRangeResampleFilter()
   }
   this->Controller = vtkMultiProcessController::GetGlobalController();
 }
+
+vtkRangeResampleFilter::~vtkRangeResampleFilter() = default;
 
 void vtkRangeResampleFilter::SetDeviceChoice(const char* text)
 {
@@ -78,8 +85,15 @@ int vtkRangeResampleFilter::FillInputPortInformation(int, vtkInformation* info)
 }
 
 int vtkRangeResampleFilter::RequestInformation(
-  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
+  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
+  vtkInformation* const inInfo = inputs[0]->GetInformationObject(0);
+  const bool hasSteps =
+    inInfo->Has(Pipeline::TIME_STEPS()) && inInfo->Length(Pipeline::TIME_STEPS()) > 1;
+  if (hasSteps != bool(this->KeptForSteps))
+  {
+    this->KeptForSteps = hasSteps ? std::make_unique<Kept>() : nullptr;
+  }
   vtkInformation* const outInfo = outputs->GetInformationObject(0);
   outInfo->Set(vtkAlgorithm::CAN_PRODUCE_SUB_EXTENT(), 1);
   return tipp::runReported(this, nullptr, "Resampling: ", nullptr,
@@ -312,6 +326,9 @@ private:
     tipp::SamplingSettings settings = this->settings();
     settings.Axes = axes;
     settings.Merging = this->severalRanks() || filter->NumberOfInputPieces > 1 || meshes.size() > 1;
+    const bool keeps = !settings.Merging && !settings.NoData && !settings.Conservative &&
+      settings.Device.Kind != tipp::Device::OpenCL;
+    settings.Kept = keeps ? filter->KeptForSteps.get() : nullptr;
     tipp::refuseTooLarge(local, this->Wanted, this->severalRanks(), meshes, settings);
     this->Image = std::make_unique<tipp::SampledImage>(local, settings);
   }

@@ -41,6 +41,11 @@
  * pieces one after another, so only one of them has to fit into memory. Both need a source that
  * honours piece requests. If one rank fails or is aborted, all ranks stop and report its error.
  *
+ * If the input has time steps, the filter keeps which cell each sample is in, 4 bytes per sample,
+ * while coordinates, cells and samples stay the same; the next time step then takes a fraction of
+ * the time. With DEVICE_AUTO, threads do the work then. Nothing is kept with several ranks, input
+ * pieces or meshes, UseNoDataValue, METHOD_CONSERVATIVE or DEVICE_OPENCL.
+ *
  * GetStatistics() is a vtkTable about the last run on this rank. Its field data has arrays of one
  * value each: Cells, IgnoredCells, VisitedCells (whose boxes have samples), Tests (samples in those
  * boxes), ExactTests, OverlappingClaims, Samples, SamplesHit, Threads and Device. PhaseName and
@@ -65,6 +70,8 @@
 #include "vtkSmartPointer.h"           // For the Controller
 #include "vtkTIPPFiltersModule.h"      // For export macro
 #include "vtkTIPPSetGet.h"             // For property macros
+
+#include <memory> // For what is kept
 
 class vtkStringArray;
 class vtkTable;
@@ -277,7 +284,7 @@ public:
 
 protected:
   vtkRangeResampleFilter();
-  ~vtkRangeResampleFilter() override = default;
+  ~vtkRangeResampleFilter() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestInformation(
@@ -314,7 +321,9 @@ private:
   void operator=(const vtkRangeResampleFilter&) = delete;
 
   class Resampling;
+  class Kept;
 
+  std::unique_ptr<Kept> KeptForSteps; ///< null: the input has no time steps
   vtkNew<vtkTable> Statistics;
   vtkNew<vtkStringArray> DeviceChoices;
 };

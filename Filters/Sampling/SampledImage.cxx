@@ -4,6 +4,7 @@
 #include "Arrays/Scalar.h"
 #include "Overlap/AddOverlaps.h"
 #include "Parallel/Stopwatch.h"
+#include "Resample/NearBorder.h"
 #include "Sampling/PlainValues.h"
 #include "Sampling/SamplingLattice.h"
 #include "Vtk/CellArrays.h"
@@ -269,7 +270,9 @@ bool SampledImage::sample(vtkPointSet* mesh, SimplexSet& simplices, const Report
   const std::vector<Attribute> attributes = this->attributesOf(mesh);
   this->Statistics.PreparationSeconds += watch.seconds();
   this->HasSamples = true;
-  const ResampleResult result = resample(simplices.Mesh, this->Grid, attributes, options);
+  const ResampleResult result = this->Settings.Kept
+    ? this->sampleKept(simplices.Mesh, attributes, options)
+    : resample(simplices.Mesh, this->Grid, attributes, options);
   this->Values.clear();
   SamplingStatistics& statistics = this->Statistics;
   addTo(statistics.Claims, result.Statistics);
@@ -285,6 +288,29 @@ bool SampledImage::sample(vtkPointSet* mesh, SimplexSet& simplices, const Report
     this->warnOnce(result.Warning);
   }
   return !result.Aborted;
+}
+
+/// What resample() does, with the claims of the time step before if the mesh is still the same.
+ResampleResult SampledImage::sampleKept(const SimplexMesh& mesh,
+  const std::vector<Attribute>& attributes, const ResampleOptions& options) const
+{
+  ResampleResult result;
+  Stopwatch watch;
+  const Claims* const claims =
+    this->Settings.Kept->of(mesh, this->Grid, options.Threads, partOf(options.Progress, 0, 0.7));
+  result.ClaimSeconds = watch.restart();
+  result.Aborted = !claims;
+  if (claims)
+  {
+    result.Statistics = claims->Statistics;
+    ResampleOptions rest = options;
+    rest.Progress = partOf(options.Progress, 0.7, 1);
+    result.Aborted =
+      !interpolate(mesh, SampleWindow(mesh, this->Grid), claims->Cells.get(), attributes, rest);
+    fillNear(claims->Near, attributes, options.Parents);
+    result.InterpolationSeconds = watch.seconds();
+  }
+  return result;
 }
 
 /// Throws std::runtime_error if the samples are not pixels of one layer.

@@ -4,6 +4,7 @@
 
 #include "Overlap/OverlapSums.h"
 #include "Resample/Resample.h"
+#include "Sampling/KeptClaims.h"
 #include "Sampling/SimplexParts.h"
 
 #include "vtkCharArray.h"
@@ -38,6 +39,9 @@ struct SamplingSettings
   /// their positions.
   bool Conservative = false;
   bool CoveredShare = false; ///< with Conservative: adds the array coveredShareName
+  /// Keeps the claims of a complete mesh for the next time step; null: they are not kept. Not with
+  /// Merging, Conservative, NoData, which hides other cells at each step, or a Device.
+  KeptClaims* Kept = nullptr;
 };
 
 /// The name of the array with the share of each pixel, or of each cell, that a mesh covers.
@@ -108,6 +112,8 @@ public:
 private:
   Array& addArray(const std::string& name, bool ofCells, int type, int components);
   bool sample(vtkPointSet* mesh, SimplexSet& simplices, const Report& progress);
+  ResampleResult sampleKept(const SimplexMesh& mesh, const std::vector<Attribute>& attributes,
+    const ResampleOptions& options) const;
   bool average(vtkPointSet* mesh, SimplexSet& simplices, const Report& progress);
   void requirePixels() const;
   void finishMeans();
