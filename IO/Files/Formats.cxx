@@ -20,7 +20,7 @@ constexpr unsigned vtkRead = Use::Points | Use::Constraints | Use::Triangles;
 // clang-format off
 /// The formats. An extension may be in several rows, if it is opened differently for each use. The
 /// order is that of lists in messages.
-constexpr std::array<Format, 34> formats = { {
+constexpr std::array<Format, 35> formats = { {
   // Extensions, others, opener, uses, drivers of GDAL, help
   { ".poly", "", Opener::Triangle, Use::Constraints, "", "" },
   { ".tif", ".tiff", Opener::GeoTiff, Use::Rasters | Use::WritesRasters | Use::WritesSeries,
@@ -56,6 +56,10 @@ constexpr std::array<Format, 34> formats = { {
   { ".gr3", "", Opener::Adcirc, Use::Points | Use::Constraints | Use::Triangles |
       Use::WritesTriangles, "", "SCHISM" },
   { ".2dm", "", Opener::Sms, Use::Points | Use::Triangles | Use::WritesTriangles, "", "SMS" },
+  { ".nc", ".nc4 .cdf", Opener::Netcdf, Use::Points | Use::Triangles | Use::WritesSeries, "",
+    "" },
+  { ".slf", ".ser .sel", Opener::Selafin, Use::Points | Use::Triangles, "",
+    "output of models: the nodes; if built with NetCDF" },
   { ".msh", "", Opener::Gmsh, Use::Points | Use::Triangles | Use::WritesTriangles, "",
     "Gmsh in ASCII" },
   { ".node", "", Opener::Triangle, Use::Points | Use::Triangles | Use::WritesTriangles, "",
@@ -66,7 +70,6 @@ constexpr std::array<Format, 34> formats = { {
     "" },
   { ".asc", "", Opener::Gdal, Use::Rasters, "AAIGrid", "" },
   { ".flt .bil", "", Opener::Gdal, Use::Rasters, "EHdr", "" },
-  { ".nc", "", Opener::Netcdf, Use::WritesSeries, "", "" },
   { ".pvd", "", Opener::ParaViewList, Use::WritesSeries, "", "" },
   { ".vtp", "", Opener::Vtk, Use::WritesLines, "", "" },
   { ".tipp", "", Opener::Pieces, Use::WritesPieces, "", "" },
@@ -112,7 +115,7 @@ struct Kind
 constexpr const char* flatten = "convert it, as with 'tipp flatten FILE -o mesh'.";
 constexpr const char* meshio = "convert it, as with 'meshio convert FILE out.vtu'.";
 
-constexpr std::array<Kind, 10> kinds = { {
+constexpr std::array<Kind, 11> kinds = { {
   { ".14 .grd", "an ADCIRC grid", flatten },
   { ".gr3", "a SCHISM grid", flatten },
   { ".2dm", "a mesh of SMS", flatten },
@@ -121,9 +124,8 @@ constexpr std::array<Kind, 10> kinds = { {
   { ".ex2 .exo .e", "an Exodus file", meshio },
   { ".xml", "a mesh of DOLFIN or other XML", meshio },
   { ".med", "a mesh of Salome", meshio },
-  { ".nc .nc4 .cdf", "a NetCDF file",
-    "give a text file, such as ADCIRC's ASCII output, or convert a raster, as with "
-    "'gdal_translate FILE out.xyz'." },
+  { ".nc .nc4 .cdf", "a NetCDF file", flatten },
+  { ".slf .ser .sel", "a SELAFIN file", flatten },
   { ".e57", "an E57 file", "convert it, as with 'pdal translate FILE out.las'." },
 } };
 

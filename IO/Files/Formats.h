@@ -45,6 +45,7 @@ enum class Opener
   Npy,
   ParaViewList, ///< of files and their times
   Pieces,       ///< a partitioned mesh
+  Selafin,
   Sms,
   Text,
   Triangle, ///< the files of Shewchuk's program

@@ -292,7 +292,9 @@ FlatMesh openFlatFolder(const std::string& path)
   return mesh;
 }
 
-void writeArray(const std::string& path, const FlatArray& array, bool table)
+/// Returns false if `aborted`, called between steps, returned true.
+bool writeArray(const std::string& path, const FlatArray& array, bool table,
+  const std::function<bool()>& aborted = {})
 {
   std::vector<std::int64_t> shape;
   if (array.Steps > 0)
@@ -305,10 +307,22 @@ void writeArray(const std::string& path, const FlatArray& array, bool table)
     shape.push_back(array.Components);
   }
   NpyWriter writer(path, scalarDescr(array.Type), shape);
-  const std::size_t tuples =
-    std::size_t(array.Tuples) * std::size_t(std::max<std::int64_t>(array.Steps, 1));
-  writer.write(array.Values, tuples * std::size_t(array.Components) * scalarSize(array.Type));
+  const std::size_t stepBytes =
+    std::size_t(array.Tuples) * std::size_t(array.Components) * scalarSize(array.Type);
+  const std::int64_t steps = std::max<std::int64_t>(array.Steps, 1);
+  for (std::int64_t step = 0; step < steps; ++step)
+  {
+    if (aborted && aborted())
+    {
+      return false;
+    }
+    writer.write(array.StepValues
+        ? array.StepValues(step)
+        : static_cast<const char*>(array.Values) + std::size_t(step) * stepBytes,
+      stepBytes);
+  }
   writer.close();
+  return true;
 }
 
 void writeCells(const std::string& path, const FlatContent& content)
@@ -331,10 +345,6 @@ bool writeData(const std::string& folder, const std::vector<FlatArray>& arrays,
   std::filesystem::create_directory(folder);
   for (const FlatArray& array : arrays)
   {
-    if (aborted && aborted())
-    {
-      return false;
-    }
     const std::string name = arrayFileName(array.Name) + ".npy";
     if (name.size() > NAME_MAX)
     {
@@ -349,7 +359,10 @@ bool writeData(const std::string& folder, const std::vector<FlatArray>& arrays,
         "cannot hold the array '" + array.Name +
           "', which has no name or that of another; rename it.");
     }
-    writeArray(path, array, false);
+    if (!writeArray(path, array, false, aborted))
+    {
+      return false;
+    }
   }
   return true;
 }

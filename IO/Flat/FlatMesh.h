@@ -17,6 +17,8 @@
 namespace tipp
 {
 
+class MeshSeries;
+
 /// A mesh of triangles or of tetrahedra as arrays in files. Nothing is loaded, so the mesh may be
 /// larger than memory. The sizes of all arrays have been checked against their files. Point indices
 /// have not: CellReader checks them as it reads.
@@ -96,8 +98,11 @@ struct FlatArray
   int Components = 1;
   std::int64_t Tuples = 0;
   std::int64_t Steps = 0;            ///< 0: the array does not vary in time
-  const void* Values = nullptr;      ///< step by step, then tuple by tuple
+  const void* Values = nullptr;      ///< step by step, then tuple by tuple; null with StepValues
   std::shared_ptr<const void> Owner; ///< owns Values, or null if the caller does
+  /// If set, called once for each step, from 0, or for 0 if the array does not vary: returns the
+  /// step's values, which stay valid until the next call.
+  std::function<const void*(std::int64_t step)> StepValues = {};
 };
 
 /// The content of a flat mesh to be written.
@@ -117,16 +122,10 @@ struct FlatContent
 VTKTIPPIO_EXPORT bool writeFlatMesh(
   const std::string& path, const FlatContent& content, const std::function<bool()>& aborted = {});
 
-/// Converts a mesh that readModelMesh() reads, with its values at nodes as point data and its
-/// regions as the cell data "Region". Throws IOError.
-VTKTIPPIO_EXPORT FlatContent flattenModel(const std::string& path);
-
-/// Converts an ADCIRC grid (AdcircGrid) with the point data "depth" and, for each file of values at
-/// its nodes (fort.63, fort.64, maxele.63 ...), point data named after the file without extension;
-/// "fort.63" and "fort.64" are kept as they are. Several steps become an array that varies in time;
-/// files of several steps must have equal times. Throws IOError.
-VTKTIPPIO_EXPORT FlatContent flattenAdcirc(
-  const std::string& grid, const std::vector<std::string>& values);
+/// Converts the output of a model, with its variables as point and cell data. Values are read when
+/// they are written, step by step; so `series` must outlive the content. Cells that are parts of
+/// others have the cell data "OriginalCellId". Throws IOError.
+VTKTIPPIO_EXPORT FlatContent flattenSeries(MeshSeries& series);
 
 } // namespace tipp
 

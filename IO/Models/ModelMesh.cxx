@@ -35,6 +35,9 @@ ModelMesh readModelMesh(const std::string& path, ModelPart part)
       return readGmshMesh(path, part);
     case Opener::Triangle:
       return readTriangleMesh(path, part);
+    case Opener::Netcdf:
+    case Opener::Selafin:
+      return readSeriesMesh(path, part);
     default:
       refuseKind(path, "has no extension that tells a kind of mesh of a model.");
   }
@@ -44,7 +47,7 @@ bool isModelMesh(const std::string& path)
 {
   const Opener opener = openerOf(path, Use::Triangles);
   return opener == Opener::Adcirc || opener == Opener::Sms || opener == Opener::Gmsh ||
-    opener == Opener::Triangle;
+    opener == Opener::Triangle || opener == Opener::Netcdf || opener == Opener::Selafin;
 }
 
 } // namespace tipp

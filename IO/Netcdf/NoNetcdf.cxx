@@ -1,10 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Series/SeriesOutput.h"
-
 #include "Files/IOError.h"
+#include "Series/NetcdfSeries.h"
+#include "Series/SeriesOutput.h"
 
 namespace tipp
 {
+
+std::unique_ptr<MeshSeries> openNetcdfSeries(const std::string& path, const SeriesOptions&)
+{
+  throw IOError(path,
+    "is a NetCDF file, which this build of TIPP does not read; install the NetCDF library "
+    "(Debian's libnetcdf-dev) and build TIPP again.");
+}
 
 std::unique_ptr<SeriesOutput> createNetcdfSeries(
   const std::string& path, const SeriesDescription&, const PathState&)

@@ -23,6 +23,16 @@ struct SeriesVariable
   Scalar Type = Scalar::Float64;
   bool OnCells = false; ///< one value per triangle; otherwise one per node
   bool Varies = false;  ///< has values of its own for each time step
+  /// The vector of which this is a component, if the file has vectors; their components follow each
+  /// other. Empty otherwise.
+  std::string Vector = {};
+};
+
+/// A variable that a MeshSeries does not offer, or cells that are left out of its mesh.
+struct SeriesLeftOut
+{
+  std::string Name;
+  std::string Reason; ///< continues a sentence about it, such as "has the dimension 'siglay'"
 };
 
 /// The triangles of a model's mesh. Other cells are cut into triangles.
@@ -50,6 +60,7 @@ public:
   virtual void read(std::size_t variable, std::size_t step, std::vector<double>& values) = 0;
 
   std::string Path; ///< the file, for messages
+  std::string Kind; ///< the convention of the file, such as "UGRID"
   std::int64_t Nodes = 0;
   std::vector<SeriesVariable> Variables;
   std::vector<double> Times; ///< of the steps, ascending; empty if no variable varies
@@ -57,6 +68,8 @@ public:
   /// the file does not say.
   std::string TimeUnits;
   std::string Calendar; ///< in the manner of CF; empty: the standard one
+  /// What the file has and Variables lacks. readMesh() adds cells.
+  std::vector<SeriesLeftOut> LeftOut;
   /// The reference system as GDAL reads it, such as "EPSG:4326"; empty if the file does not say.
   std::string Crs;
 };
@@ -77,6 +90,10 @@ VTKTIPPIO_EXPORT std::unique_ptr<MeshSeries> openMeshSeries(
 
 /// Whether openMeshSeries() opens the file, by its extension.
 VTKTIPPIO_EXPORT bool isMeshSeries(const std::string& path);
+
+/// Returns the index of the variable with this name. Throws IOError if there is none, with the
+/// reason if it is left out.
+VTKTIPPIO_EXPORT std::size_t findSeriesVariable(const MeshSeries& series, const std::string& name);
 
 } // namespace tipp
 

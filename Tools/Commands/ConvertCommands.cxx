@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Adcirc/AdcircGrid.h"
 #include "Commands/Commands.h"
 #include "Commands/PointArguments.h"
 #include "Commands/Report.h"
+#include "Commands/SeriesReport.h"
 #include "Commands/VtkFiles.h"
 #include "Console/Process.h"
-#include "Files/Formats.h"
 #include "Files/OutputFile.h"
 #include "Files/PendingOutput.h"
 #include "Files/RequireApart.h"
 #include "Flat/FlatMesh.h"
 #include "Flat/FlattenDataSet.h"
-#include "Models/ModelMesh.h"
 #include "Partitioning/PartitionMesh.h"
 #include "Ranks/Communicator.h"
+#include "Series/MeshSeries.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -31,7 +30,9 @@ namespace
 
 constexpr const char* flattenFooter =
   R"(INPUT   any VTK file, which is read into memory, or a mesh of ADCIRC (.14, .grd), SCHISM
-        (.gr3), SMS (.2dm), Gmsh (.msh) or Triangle (.node, .ele).
+        (.gr3), SMS (.2dm), Gmsh (.msh) or Triangle (.node, .ele), or the output of a
+        model: SELAFIN (.slf), or NetCDF (.nc) by UGRID, ADCIRC, SCHISM, FVCOM, FESOM
+        or MPAS. Its time steps are read one after another.
 FOLDER  cells.npy, points.npy, point_data/NAME.npy, cell_data/NAME.npy and, for
         values that vary in time, time.npy. It must not exist yet.
 
@@ -43,6 +44,8 @@ be used directly: other commands read its data where they are in the file.
 Examples:
   tipp flatten bracket.vtu -o bracket
   tipp flatten fort.14 -o surge --values fort.63 --values maxele.63
+  tipp flatten fort.63.nc -o surge
+  tipp flatten fesom.mesh.diag.nc -o sst --values sst.1948.nc --wrap
 )";
 
 struct FlattenArguments
@@ -50,6 +53,7 @@ struct FlattenArguments
   std::string Input;
   std::string Output;
   std::vector<std::string> Values;
+  bool Wrap = false;
 };
 
 /// `leftOut` and `ghostCells`: as in Flattened.
@@ -95,6 +99,18 @@ int writeContent(const FlattenArguments& arguments, const FlatContent& content)
   return Success;
 }
 
+int flattenModelOutput(const FlattenArguments& arguments)
+{
+  const auto series = openMeshSeries(arguments.Input, { arguments.Values, arguments.Wrap });
+  const FlatContent content = flattenSeries(*series);
+  const int code = writeContent(arguments, content);
+  if (code == Success)
+  {
+    warnOfVariablesLeftOut(*series);
+  }
+  return code;
+}
+
 int runFlatten(const FlattenArguments& arguments)
 {
   {
@@ -105,13 +121,9 @@ int runFlatten(const FlattenArguments& arguments)
     requireFolderName(arguments.Output);
     const PendingFolder writable(arguments.Output);
   }
-  if (isOpenedBy(arguments.Input, Opener::Adcirc))
+  if (isMeshSeries(arguments.Input))
   {
-    return writeContent(arguments, flattenAdcirc(arguments.Input, arguments.Values));
-  }
-  if (isModelMesh(arguments.Input))
-  {
-    return writeContent(arguments, flattenModel(arguments.Input));
+    return flattenModelOutput(arguments);
   }
   int code = Success;
   flattenVtkFile(arguments.Input,
@@ -131,14 +143,19 @@ void addOptions(CLI::App& command, FlattenArguments& arguments)
   command.add_option("input", arguments.Input, "The mesh")->required();
   command.add_option("-o,--output", arguments.Output, "The folder to write")->required();
   command.add_option("--values", arguments.Values,
-    "With a grid of ADCIRC or SCHISM: ASCII output at its nodes (fort.63, maxele.63 ...)");
+    "With a mesh of a model: files of values at its nodes or cells: ASCII output of ADCIRC "
+    "(fort.63, maxele.63 ...), datasets of SMS (.dat), or NetCDF");
+  command.add_flag("--wrap", arguments.Wrap,
+    "With a mesh of a model in degrees: cells that cross the meridian at which longitudes jump are "
+    "on either side of it; without this they are an error");
 }
 
 int run(FlattenArguments& arguments)
 {
-  if (!arguments.Values.empty() && !isOpenedBy(arguments.Input, Opener::Adcirc))
+  if ((!arguments.Values.empty() || arguments.Wrap) && !isMeshSeries(arguments.Input))
   {
-    throw CLI::ValidationError("--values needs a grid of ADCIRC or SCHISM (.14, .grd, .gr3)");
+    throw CLI::ValidationError(
+      "--values and --wrap need the mesh of a model (.nc, .slf, .2dm, .14, .grd, .gr3)");
   }
   return isIdleRank() ? Success : runFlatten(arguments);
 }

@@ -2,6 +2,7 @@
 #include "Commands/Commands.h"
 
 #include "Commands/PointArguments.h"
+#include "Commands/SeriesReport.h"
 #include "Console/Process.h"
 #include "Files/Formats.h"
 #include "Files/IOError.h"
@@ -13,6 +14,7 @@
 #include "Parallel/Poll.h"
 #include "Points/ReadPoints.h"
 #include "Predicates/Geometry.h"
+#include "Series/MeshSeries.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -35,12 +37,14 @@ constexpr const char* footer =
 bounds, the columns and their ranges, the coordinate reference system, the number of
 duplicates, and a resolution for 'tipp dem' that gives about one point per pixel. Of a COPC
 file it prints the levels, each with its points. Of text it prints which columns are x, y
-and z. A line 'check' names what may not be meant, and the option for it.
+and z. Of the output of a model, in NetCDF or SELAFIN, it prints the mesh, the variables with
+their units, the time steps, and what is left out and why. A line 'check' names what may not be meant, and the option for it.
 
 Examples:
   tipp info tile.las
   tipp info tiles/*.las --class 2
   tipp info tile.copc.laz --spacing 10
+  tipp info fort.63.nc
 )";
 
 struct InfoArguments
@@ -337,7 +341,7 @@ void printChecks(const std::vector<TableReport>& reports, const std::vector<std:
   }
 }
 
-int runInfo(const InfoArguments& arguments)
+int describePoints(const InfoArguments& arguments)
 {
   for (const std::string& path : arguments.Inputs)
   {
@@ -381,6 +385,30 @@ int runInfo(const InfoArguments& arguments)
       roundNumber(std::sqrt(area / double(summary.Points - summary.NotFinite))));
   }
   return Success;
+}
+
+bool isModelOutput(const std::string& path)
+{
+  return isOpenedBy(path, Opener::Netcdf) || isOpenedBy(path, Opener::Selafin);
+}
+
+int runInfo(const InfoArguments& arguments)
+{
+  InfoArguments points = arguments;
+  points.Inputs.clear();
+  for (const std::string& path : arguments.Inputs)
+  {
+    if (isModelOutput(path))
+    {
+      // Cells that cross the meridian of 180 degrees do not keep a file from being described.
+      describeSeries(*openMeshSeries(path, { {}, true }));
+    }
+    else
+    {
+      points.Inputs.push_back(path);
+    }
+  }
+  return points.Inputs.empty() ? int(Success) : describePoints(points);
 }
 
 void addOptions(CLI::App& command, InfoArguments& arguments)

@@ -17,7 +17,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <set>
 #include <utility>
 
 namespace tipp
@@ -132,26 +131,12 @@ std::unique_ptr<MeshSeries> openSeries(const ResampleArguments& arguments)
   return openFlatSeries(arguments.Input);
 }
 
-std::size_t indexOf(const MeshSeries& series, const std::string& name)
-{
-  std::set<std::string> names;
-  for (std::size_t i = 0; i < series.Variables.size(); ++i)
-  {
-    if (series.Variables[i].Name == name)
-    {
-      return i;
-    }
-    names.insert(series.Variables[i].Name);
-  }
-  throw IOError(series.Path, "has no array '" + name + "'" + listOfNames(names, "; it has ") + ".");
-}
-
 std::vector<std::size_t> variablesOf(const MeshSeries& series, const ResampleArguments& arguments)
 {
   std::vector<std::size_t> variables;
   for (const std::string& name : arguments.Arrays)
   {
-    variables.push_back(indexOf(series, name));
+    variables.push_back(findSeriesVariable(series, name));
   }
   const bool isAll = arguments.Arrays.empty();
   for (std::size_t i = 0; isAll && i < series.Variables.size(); ++i)
@@ -168,7 +153,7 @@ std::vector<std::size_t> variablesOf(const MeshSeries& series, const ResampleArg
 /// The variable of --waterline. Throws IOError if it does not fit.
 std::size_t depthOf(const MeshSeries& series, const SeriesPlan& plan, const std::string& name)
 {
-  const std::size_t depth = indexOf(series, name);
+  const std::size_t depth = findSeriesVariable(series, name);
   const auto isLevel = [&series](std::size_t i)
   { return series.Variables[i].Varies && !series.Variables[i].OnCells; };
   if (series.Variables[depth].OnCells || series.Variables[depth].Varies)

@@ -3,6 +3,7 @@
 #include "Constraints/ReadConstraintFile.h"
 #include "ExpectIOError.h"
 #include "Flat/FlatMesh.h"
+#include "FlattenedSeries.h"
 #include "Meshes/MeshFiles.h"
 #include "Models/ModelMesh.h"
 #include "Points/ReadPoints.h"
@@ -11,7 +12,9 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cstdint>
 #include <limits>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -23,6 +26,7 @@ using Ids = std::vector<std::int64_t>;
 using tipp::ModelPart;
 using tipp::test::contentOf;
 using tipp::test::expectIOError;
+using tipp::test::FlattenedSeries;
 
 class ModelMeshes : public testing::Test
 {
@@ -110,8 +114,33 @@ TEST_F(ModelMeshes, DamagedMeshesOfSmsAreReportedWithTheLine)
   this->expectError("a.2dm", "MESH2D\nE3T 1 1 2\n", "line 2: has too few numbers for a triangle");
   this->expectError(
     "a.2dm", "MESH2D\nND 1 0 0 0\nE3T 1 1 1 2\n", "line 3: names node 2, which is not given");
-  this->expectError("a.2dm", "MESH2D\nE4Q 1 1 2 3 4 1\n", "line 2: the element E4Q");
+  this->expectError("a.2dm", "MESH2D\nE8Q 1 1 2 3 4 1\n", "line 2: the element E8Q");
+  this->expectError("a.2dm",
+    "MESH2D\nE4Q 1 1 3 2 4 1\nND 1 0 0 0\nND 2 1 0 0\nND 3 1 1 0\nND 4 0 1 0\n",
+    "line 2: gives a quadrilateral that crosses or touches itself");
   this->expectTruncationsReported("a.2dm", this->Sms, "BEGPARAMDEF");
+}
+
+TEST_F(ModelMeshes, QuadrilateralsOfSmsAreCutAlike)
+{
+  // The first corner and the direction differ; the rows are of one shape.
+  const std::string nodes = "ND 11 0 0 5\nND 2 2 0 6\nND 30 2.5 1 7\nND 4 0 1 8\n";
+  std::vector<std::set<std::set<std::int64_t>>> cuts;
+  for (const std::string corners : { "11 2 30 4", "30 4 11 2", "4 30 2 11" })
+  {
+    const std::string path =
+      this->Folder.file("a.2dm", "MESH2D\nE4Q 1 " + corners + " 9\n" + nodes);
+    const tipp::ModelMesh mesh = tipp::readModelMesh(path, ModelPart::Triangles);
+    ASSERT_EQ(6U, mesh.Triangles.size());
+    EXPECT_EQ((Doubles{ 9, 9 }), mesh.Regions);
+    EXPECT_EQ((std::vector<std::int64_t>{ 0, 0 }), mesh.OriginalCells);
+    const std::int64_t* const t = mesh.Triangles.data();
+    cuts.push_back({ { t[0], t[1], t[2] }, { t[3], t[4], t[5] } });
+  }
+  // The diagonal from (2, 0) to (0, 1) is the shorter one.
+  EXPECT_EQ((std::set<std::set<std::int64_t>>{ { 0, 1, 3 }, { 1, 2, 3 } }), cuts[0]);
+  EXPECT_EQ(cuts[0], cuts[1]);
+  EXPECT_EQ(cuts[0], cuts[2]);
 }
 
 TEST_F(ModelMeshes, QuadrilateralsOfSmsHaveNodes)
@@ -309,14 +338,15 @@ TEST_F(ModelMeshes, PointsThatAreNotFiniteAreRefused)
 
 TEST_F(ModelMeshes, FlatMeshesHaveTheValuesAndRegions)
 {
-  const tipp::FlatContent content = tipp::flattenModel(this->written("a.2dm"));
+  const FlattenedSeries flattened(this->written("a.2dm"));
+  const tipp::FlatContent& content = flattened.Content;
   EXPECT_EQ(this->Triangles, content.Cells);
   EXPECT_EQ(4, content.Points.Tuples);
   ASSERT_EQ(1U, content.PointData.size());
   EXPECT_EQ("z", content.PointData[0].Name);
   ASSERT_EQ(1U, content.CellData.size());
   EXPECT_EQ("Region", content.CellData[0].Name);
-  EXPECT_EQ(7, static_cast<const double*>(content.CellData[0].Values)[0]);
+  EXPECT_EQ(7, FlattenedSeries::valueAt(content.CellData[0], 0, 0));
 }
 
 } // namespace

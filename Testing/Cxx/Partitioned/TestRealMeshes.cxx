@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "FlattenedSeries.h"
 #include "MeshChecks.h"
 #include "RealData.h"
 #include "TemporaryFolder.h"
@@ -68,7 +69,7 @@ void expectSame(const std::string& flat, const std::string& output, const std::s
 void expectAdcircSame(const std::string& grid, const std::string& tiling)
 {
   const TemporaryFolder folder;
-  writeFlatMesh(folder.path("flat"), flattenAdcirc(grid, {}));
+  writeFlatMesh(folder.path("flat"), FlattenedSeries(grid).Content);
   expectSame(folder.path("flat"), folder.path("mesh"), tiling);
 }
 
@@ -95,7 +96,8 @@ TEST(RealMeshes, TheOverflowIsReadWithItsTimeSteps)
   TIPP_REQUIRE_REAL_DATA(grid, "adcirc/internal_overflow/internal_overflow.grd")
   TIPP_REQUIRE_REAL_DATA(steps, "adcirc/internal_overflow/fort.63")
   const TemporaryFolder folder;
-  const FlatContent content = flattenAdcirc(grid, { steps });
+  const FlattenedSeries flattened(grid, { steps });
+  const FlatContent& content = flattened.Content;
   writeFlatMesh(folder.path("flat"), content);
   expectSame(folder.path("flat"), folder.path("mesh"), "grid:3x3");
   const PartitionedMesh mesh = openPartitionedMesh(folder.path("mesh"));

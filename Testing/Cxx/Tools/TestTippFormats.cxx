@@ -210,7 +210,6 @@ TEST_F(TippFormats, OtherKindsNameTheCommandThatConvertsThem)
 {
   const std::vector<std::pair<std::string, std::string>> kinds = {
     { "mesh.ex2", "'meshio convert mesh.ex2 out.vtu'" },
-    { "fort.63.nc", "is a NetCDF file, which is not read here; give a text file" },
     { "mesh.xml.gz",
       "'gunzip mesh.xml.gz', and convert it, as with 'meshio convert mesh.xml out.vtu'" },
   };

@@ -113,7 +113,7 @@ TEST_F(TippResampleSeries, ExplainsWhatDoesNotFit)
   const std::vector<std::pair<Words, std::string>> wrong = {
     { { "-o", "a.npy", "--step", "all" }, "holds one array, and there would be 2" },
     { { "-o", "a.nc", "--step", "all", "--arrays", "speed" },
-      "has no array 'speed'; it has 'depth', 'level'" },
+      "has no variable 'speed'; there are 'depth', 'level'" },
     { { "-o", "a.nc", "--reduce", "median" }, "give max, min, mean" },
     { { "-o", "a.nc", "--step", "all", "--method", "conservative" }, "conservative is for single" },
     { { "-o", "a.nc", "--step", "all", "--device", "opencl" }, "must be openmp" },

@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Flat/FlatMesh.h"
+#include "Adcirc/AdcircValues.h"
 
-#include "Adcirc/AdcircGrid.h"
 #include "Adcirc/ListDirectedRows.h"
-#include "Files/IOError.h"
 
-#include <filesystem>
-#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,20 +12,6 @@ namespace tipp
 
 namespace
 {
-
-/// Values at the nodes of an ADCIRC grid (https://adcirc.org; fort.63, fort.64, maxele.63 ...): a
-/// title; the numbers of steps and nodes, two unused numbers, and the number of values per node;
-/// for each step a line of time and time step, and a line `node value...` per node. A step may give
-/// a number of nodes and a default value on its first line, and then only the nodes that differ.
-/// Nodes are identified by the grid's node numbers. A file with fewer steps than announced, as from
-/// an interrupted run, is rejected.
-struct AdcircValues
-{
-  int Components = 1;        ///< values per node
-  std::vector<double> Times; ///< times of the steps, in seconds
-  std::vector<double>
-    Values; ///< step by step, in the order of the grid's nodes; -99999 at dry nodes
-};
 
 /// Reads a file of AdcircValues. The constructor and read() throw IOError if the file cannot be
 /// read or its values belong to another grid.
@@ -127,52 +109,11 @@ private:
   AdcircValues Result;
 };
 
-FlatArray floats(std::string name, std::vector<double> values, int components, std::int64_t tuples)
-{
-  const auto kept = std::make_shared<std::vector<double>>(std::move(values));
-  return { std::move(name), Scalar::Float64, components, tuples, 0, kept->data(), kept };
-}
-
-/// The array's name. ADCIRC's own file names, such as fort.63, keep their extension, which
-/// identifies the content.
-std::string nameOf(const std::string& path)
-{
-  const std::filesystem::path file(path);
-  return file.stem() == "fort" ? file.filename().string() : file.stem().string();
-}
-
-void addValues(const std::string& path, const AdcircGrid& grid, FlatContent& content)
-{
-  AdcircValues values = ValuesReader(path, grid).read();
-  const std::int64_t nodes = content.Points.Tuples;
-  FlatArray array = floats(nameOf(path), std::move(values.Values), values.Components, nodes);
-  if (values.Times.size() > 1)
-  {
-    if (!content.Times.empty() && content.Times != values.Times)
-    {
-      throw IOError(path, "has other times than the file before it; flatten them one by one.");
-    }
-    content.Times = std::move(values.Times);
-    array.Steps = std::int64_t(content.Times.size());
-  }
-  content.PointData.push_back(std::move(array));
-}
-
 } // namespace
 
-FlatContent flattenAdcirc(const std::string& grid, const std::vector<std::string>& values)
+AdcircValues readAdcircValues(const std::string& path, const AdcircGrid& grid)
 {
-  AdcircGrid read = readAdcircGrid(grid);
-  FlatContent content;
-  content.Cells = std::move(read.Triangles);
-  const auto nodes = std::int64_t(read.Depth.size());
-  content.Points = floats("points", std::move(read.XY), 2, nodes);
-  content.PointData.push_back(floats("depth", read.Depth, 1, nodes));
-  for (const std::string& path : values)
-  {
-    addValues(path, read, content);
-  }
-  return content;
+  return ValuesReader(path, grid).read();
 }
 
 } // namespace tipp

@@ -15,10 +15,10 @@ namespace tipp
 namespace
 {
 
-class NetcdfSeries : public SeriesOutput
+class NetcdfGrids : public SeriesOutput
 {
 public:
-  NetcdfSeries(
+  NetcdfGrids(
     const std::string& path, const SeriesDescription& description, const PathState& before)
     : Path(path)
     , Of(description)
@@ -33,15 +33,15 @@ public:
     this->writeAxes();
   }
 
-  ~NetcdfSeries() override
+  ~NetcdfGrids() override
   {
     if (this->IsOpen)
     {
       nc_abort(this->File);
     }
   }
-  NetcdfSeries(const NetcdfSeries&) = delete;
-  NetcdfSeries& operator=(const NetcdfSeries&) = delete;
+  NetcdfGrids(const NetcdfGrids&) = delete;
+  NetcdfGrids& operator=(const NetcdfGrids&) = delete;
 
   void write(std::size_t field, std::size_t step, const float* samples) override
   {
@@ -210,7 +210,7 @@ private:
 std::unique_ptr<SeriesOutput> createNetcdfSeries(
   const std::string& path, const SeriesDescription& description, const PathState& before)
 {
-  return std::make_unique<NetcdfSeries>(path, description, before);
+  return std::make_unique<NetcdfGrids>(path, description, before);
 }
 
 } // namespace tipp

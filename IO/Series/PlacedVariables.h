@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippPlacedVariables_h
+#define tippPlacedVariables_h
+
+#include "Series/MeshSeries.h"
+#include "Series/NetcdfMesh.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace tipp
+{
+
+/// The dimensions of a mesh, as files with values may have them, too.
+struct MeshDimensions
+{
+  std::string NodeName;
+  std::string CellName;
+  std::int64_t Nodes = 0;
+  std::int64_t Cells = 0;
+};
+
+MeshDimensions dimensionsOf(const NetcdfContent& content, const NetcdfMesh& mesh);
+
+/// A variable with one value per node or cell, and possibly per time step.
+struct PlacedVariable
+{
+  SeriesVariable Described;
+  const NetcdfVariable* Variable = nullptr;
+  int TimeAxis = -1; ///< the index of time among its dimensions; -1: it does not vary
+};
+
+struct PlacedVariables
+{
+  std::vector<PlacedVariable> Variables;
+  std::vector<SeriesLeftOut> LeftOut;
+};
+
+/// What placeVariables() must know of the mesh and the file.
+struct PlacingContext
+{
+  const NetcdfMesh* Mesh;
+  MeshDimensions Dimensions;
+  int TimeDimension;
+  bool HasMesh; ///< the file is that with the mesh
+};
+
+/// Finds the variables with values at nodes or cells. Throws IOError if the file belongs to another
+/// mesh.
+PlacedVariables placeVariables(
+  const std::string& path, const NetcdfContent& content, const PlacingContext& context);
+
+} // namespace tipp
+
+#endif

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Commands/SeriesReport.h"
+
+#include "Files/TemporaryPaths.h"
+#include "Predicates/Geometry.h"
+#include "Series/MeshSeries.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+
+namespace tipp
+{
+namespace
+{
+
+void printBounds(const std::vector<double>& xy)
+{
+  Box2 box = Box2::empty();
+  for (std::size_t i = 0; i < xy.size(); i += 2)
+  {
+    box.extend(Point2{ xy[i], xy[i + 1] });
+  }
+  fmt::print(
+    "x           {} to {}\ny           {} to {}\n", box.Min.x, box.Max.x, box.Min.y, box.Max.y);
+}
+
+void printTimes(const MeshSeries& series)
+{
+  if (!series.Times.empty())
+  {
+    fmt::print("steps       {}, {} to {}{}{}\n", series.Times.size(), series.Times.front(),
+      series.Times.back(), series.TimeUnits.empty() ? "" : " " + series.TimeUnits,
+      series.Calendar.empty() ? "" : ", calendar " + series.Calendar);
+  }
+}
+
+void printVariable(const SeriesVariable& variable)
+{
+  fmt::print("{:<11} {}{}{}{}\n", variable.Name, variable.OnCells ? "on cells" : "at nodes",
+    variable.Varies ? ", varies" : "", variable.Units.empty() ? "" : ", in " + variable.Units,
+    variable.LongName.empty() ? "" : ": " + variable.LongName);
+}
+
+} // namespace
+
+void warnOfVariablesLeftOut(const MeshSeries& series)
+{
+  for (const SeriesLeftOut& left : series.LeftOut)
+  {
+    fmt::print(
+      stderr, "tipp: warning: {}: {} {}.\n", shownPath(series.Path), left.Name, left.Reason);
+  }
+}
+
+void describeSeries(MeshSeries& series)
+{
+  const SeriesMesh mesh = series.readMesh();
+  fmt::print("{}: {}, {} nodes, {} triangles{}\n", shownPath(series.Path), series.Kind,
+    mesh.XY.size() / 2, mesh.Triangles.size() / 3,
+    mesh.OriginalCells.empty()
+      ? ""
+      : fmt::format(" of {} cells",
+          1 + *std::max_element(mesh.OriginalCells.begin(), mesh.OriginalCells.end())));
+  printBounds(mesh.XY);
+  printTimes(series);
+  for (const SeriesVariable& variable : series.Variables)
+  {
+    printVariable(variable);
+  }
+  fmt::print("CRS         {}\n", series.Crs.empty() ? "not given" : series.Crs);
+  for (const SeriesLeftOut& left : series.LeftOut)
+  {
+    fmt::print("left out    {} {}\n", left.Name, left.Reason);
+  }
+}
+
+} // namespace tipp
