@@ -22,7 +22,11 @@ struct PartCorner
 /// A convex polygon, counter-clockwise, that half planes cut. The values of new corners are
 /// interpolated along the edge that is cut. So they stay between those of its ends, and no division
 /// by the area of a thin triangle is needed.
-template <int Values>
+///
+/// A cut adds one corner to a convex polygon. Rounding could make a polygon that is not quite
+/// convex, of which a cut may add half as many corners as there are. So a part of a triangle that
+/// is cut n times has at most 3, 4, 6, 9, 13, 19, 28, 42, 63 corners. `Most` must be at least that.
+template <int Values, int Most = 20>
 class ConvexPart
 {
 public:
@@ -119,10 +123,6 @@ private:
       to.Value[k] = a.Value[k] + share * (b.Value[k] - a.Value[k]);
     }
   }
-
-  // A cut adds one corner to a convex polygon. Rounding could make a polygon that is not quite
-  // convex, of which a cut may add half as many corners as there are: 3, 4, 6, 9, 13, 19.
-  static constexpr int Most = 20;
 
   int Count = 0;
   Corner Corners[Most];

@@ -61,6 +61,14 @@ public:
     return { p[this->U], p[this->V] };
   }
 
+  /// The coordinate of a point along the axis that the plane lacks.
+  double height(std::int64_t id) const
+  {
+    const std::size_t at = 3 * std::size_t(id) + (3 - this->U - this->V);
+    return this->Mesh.Float ? double(static_cast<const float*>(this->Mesh.Points)[at])
+                            : static_cast<const double*>(this->Mesh.Points)[at];
+  }
+
   bool isHidden(std::int64_t cell) const { return this->Mesh.Hidden && this->Mesh.Hidden[cell]; }
 
   /// The bounding box of a cell; empty if it is hidden.
