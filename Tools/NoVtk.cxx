@@ -52,7 +52,9 @@ void flattenVtkFile(const std::string& path, const std::function<void(const Flat
 
 void addRemapCommand(CLI::App& app, int&)
 {
-  addLeftOut(app, "remap", "'tipp remap' needs VTK, and this tipp was built without it.");
+  addLeftOut(app, "remap",
+    "'tipp remap' needs VTK, and this tipp was built without it; in "
+    "Python, tipp.remap(source, target) does the same.");
 }
 
 void addResampleCommand(CLI::App& app, int&)
@@ -60,6 +62,13 @@ void addResampleCommand(CLI::App& app, int&)
   addLeftOut(app, "resample",
     "'tipp resample' needs VTK, and this tipp was built without it; in Python, "
     "tipp.resample(tipp.read('mesh.tipp'), dimensions=(512, 512, 1)) does the same.");
+}
+
+void addVolumeCommand(CLI::App& app, int&)
+{
+  addLeftOut(app, "volume",
+    "'tipp volume' needs VTK, and this tipp was built without it; in Python, "
+    "tipp.volume(before, after) does the same.");
 }
 
 } // namespace tipp

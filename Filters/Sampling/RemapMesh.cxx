@@ -22,29 +22,11 @@
 
 namespace tipp
 {
-namespace
-{
-
-/// Returns the triangles of a surface. Throws std::runtime_error, with the surface's `name`, if it
-/// has cells with a volume.
-SimplexParts trianglesOf(vtkPointSet* mesh, const std::string& name, int threads)
-{
-  SimplexParts parts = makeSimplices(mesh, { 0, 1 }, threads);
-  if (parts.Tetrahedra.Mesh.Cells > 0)
-  {
-    throw std::runtime_error(
-      name + " has cells with a volume, and means are over areas: give a surface.");
-  }
-  return parts;
-}
-
-} // namespace
-
 MeshRemapper::MeshRemapper(vtkPointSet* target, std::vector<std::string> names, int threads)
   : Target(target)
   , Names(std::move(names))
   , Threads(threads)
-  , Parts(trianglesOf(target, "The target mesh", threads))
+  , Parts(makeTriangles(target, "The target mesh", { 0, 1 }, threads))
 {
   if (this->Parts.Triangles.Mesh.Cells == 0)
   {
@@ -99,7 +81,7 @@ bool MeshRemapper::add(vtkPointSet* source, const Report& report)
   {
     this->findArrays(source);
   }
-  const SimplexParts parts = trianglesOf(source, "The source mesh", this->Threads);
+  const SimplexParts parts = makeTriangles(source, "The source mesh", { 0, 1 }, this->Threads);
   if (parts.Triangles.Mesh.Cells == 0)
   {
     return true;

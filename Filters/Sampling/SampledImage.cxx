@@ -321,21 +321,7 @@ void SampledImage::requirePixels() const
     throw std::runtime_error(
       "the mesh has cells with a volume, and conservative means are over areas: give a surface.");
   }
-  const int projected = 3 - this->Settings.Axes[0] - this->Settings.Axes[1];
-  if (this->Grid.size(projected) > 1)
-  {
-    throw std::runtime_error("conservative means have one layer: give one sample along " +
-      std::string(1, "xyz"[projected]) + ".");
-  }
-  for (const int axis : this->Settings.Axes)
-  {
-    const bool hasWidth = this->Grid.Slack[std::size_t(axis)] > 0; // Delta was given
-    if (this->Grid.size(axis) == 1 && !hasWidth)
-    {
-      throw std::runtime_error("there is one sample along " + std::string(1, "xyz"[axis]) +
-        ", which does not tell the width of its pixel: give Delta.");
-    }
-  }
+  tipp::requirePixels(this->Grid, this->Settings.Axes);
 }
 
 /// Adds the areas and integrals of a mesh to the sums. Returns false if `progress` stopped it.

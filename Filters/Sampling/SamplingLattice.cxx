@@ -118,6 +118,25 @@ std::vector<int> surfaceAxes(const std::array<int, 3>& dimensions)
   return dimensions[1] == 1 ? std::vector<int>{ 0, 2 } : std::vector<int>{ 1, 2 };
 }
 
+void requirePixels(const Lattice& lattice, const std::vector<int>& axes)
+{
+  const int projected = 3 - axes[0] - axes[1];
+  if (lattice.size(projected) > 1)
+  {
+    throw std::runtime_error("conservative means have one layer: give one sample along " +
+      std::string(1, "xyz"[projected]) + ".");
+  }
+  for (const int axis : axes)
+  {
+    const bool hasWidth = lattice.Slack[std::size_t(axis)] > 0; // Delta was given
+    if (lattice.size(axis) == 1 && !hasWidth)
+    {
+      throw std::runtime_error("there is one sample along " + std::string(1, "xyz"[axis]) +
+        ", which does not tell the width of its pixel: give Delta.");
+    }
+  }
+}
+
 void requireMemory(double samples, double bytes)
 {
   const double memory = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGESIZE));

@@ -28,6 +28,10 @@ Lattice rangeLattice(
 /// sample, or except z.
 std::vector<int> surfaceAxes(const std::array<int, 3>& dimensions);
 
+/// Throws std::runtime_error unless the samples of a lattice, along the `axes` of a surface, are
+/// the centres of pixels in one layer whose widths are known.
+VTKTIPPFILTERS_EXPORT void requirePixels(const Lattice& lattice, const std::vector<int>& axes);
+
 /// Throws std::runtime_error if this machine does not have the `bytes` bytes that `samples` samples
 /// need.
 void requireMemory(double samples, double bytes);

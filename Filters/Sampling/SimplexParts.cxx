@@ -22,6 +22,7 @@
 #include <cmath>
 #include <cstring>
 #include <numeric>
+#include <stdexcept>
 #include <utility>
 
 namespace tipp
@@ -399,6 +400,17 @@ SimplexParts makeSimplices(vtkPointSet* mesh, const std::vector<int>& axes, int 
   }
   finish(parts.Triangles, 2, parts);
   finish(parts.Tetrahedra, 3, parts);
+  return parts;
+}
+
+SimplexParts makeTriangles(
+  vtkPointSet* mesh, const std::string& name, const std::vector<int>& axes, int threads)
+{
+  SimplexParts parts = makeSimplices(mesh, axes, threads);
+  if (parts.Tetrahedra.Mesh.Cells > 0)
+  {
+    throw std::runtime_error(name + " has cells with a volume: give a surface.");
+  }
   return parts;
 }
 

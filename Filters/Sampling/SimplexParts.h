@@ -9,6 +9,7 @@
 #include "vtkSmartPointer.h"
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 class vtkDataArray;
@@ -45,6 +46,11 @@ struct SimplexParts
 /// vtkGhostType hides are left out, and so are cells with a corner that is NaN or infinite along an
 /// axis: along `axes`, or along all three if the mesh has three-dimensional cells.
 SimplexParts makeSimplices(vtkPointSet* mesh, const std::vector<int>& axes, int threads);
+
+/// The same for a surface. Throws std::runtime_error, with the surface's `name`, if it has cells
+/// with a volume.
+SimplexParts makeTriangles(
+  vtkPointSet* mesh, const std::string& name, const std::vector<int>& axes, int threads);
 
 /// Whether the mesh has three-dimensional cells.
 VTKTIPPFILTERS_EXPORT bool hasVolumes(vtkPointSet* mesh);

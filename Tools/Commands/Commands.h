@@ -15,7 +15,8 @@ namespace tipp
 using AddCommand = void(CLI::App& app, int& exitCode);
 AddCommand addCheckCommand, addContourCommand, addDelaunayCommand, addDelaunay3DCommand,
   addDemCommand, addDevicesCommand, addFlattenCommand, addInfoCommand, addMeshCommand,
-  addPartitionCommand, addPointsCommand, addQueryCommand, addRemapCommand, addResampleCommand;
+  addPartitionCommand, addPointsCommand, addQueryCommand, addRemapCommand, addResampleCommand,
+  addVolumeCommand;
 
 } // namespace tipp
 

@@ -2,26 +2,21 @@
 #include "Commands/Commands.h"
 #include "Commands/PointArguments.h"
 #include "Commands/Report.h"
+#include "Commands/VisitMesh.h"
 #include "Console/Process.h"
 #include "Files/IOError.h"
 #include "Files/PendingOutput.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Stopwatch.h"
-#include "Partitioned/PartitionedMesh.h"
 #include "Sampling/RemapMesh.h"
 #include "Vtk/DataSets.h"
 
-#include "vtkExecutive.h"
-#include "vtkMultiProcessController.h"
-#include "vtkNew.h"
-#include "vtkPartitionedUnstructuredReader.h"
 #include "vtkPointSet.h"
 #include "vtkPolyData.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -44,44 +39,6 @@ struct RemapArguments
   std::string Memory = "1G"; ///< of the part of a partitioned source that is in memory at a time
 };
 
-/// The approximate memory, in bytes, of a cell of the source: the cell, its share of the points,
-/// and its entry in the search tree.
-constexpr std::uint64_t bytesOfCell = 160;
-
-/// Adds the pieces of a partitioned mesh, a few at a time. Returns false after an interrupt.
-bool addPieces(const RemapArguments& arguments, MeshRemapper& remapper, const Report& report)
-{
-  std::int64_t cells = 0;
-  for (const PieceSummary& piece : openPartitionedMesh(arguments.Source).Pieces)
-  {
-    cells += piece.Cells;
-  }
-  const std::uint64_t memory = *parseMemorySize(arguments.Memory);
-  const int parts =
-    int(std::min<std::uint64_t>(bytesOfCell * std::uint64_t(cells) / memory + 1, 1 << 20));
-  const vtkNew<ErrorKeeper> errors;
-  const vtkNew<vtkPartitionedUnstructuredReader> reader;
-  reader->AddObserver(vtkCommand::ErrorEvent, errors);
-  reader->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, errors);
-  reader->SetController(nullptr);
-  reader->SetFileName(arguments.Source.c_str());
-  reader->SetNumberOfThreads(arguments.Threads);
-  for (int i = 0; i < parts; ++i)
-  {
-    reader->UpdatePiece(i, parts, 0);
-    if (errors->HasError)
-    {
-      throw IOError(errors->message());
-    }
-    auto* const part = vtkPointSet::SafeDownCast(reader->GetOutputDataObject(0));
-    if (part && !remapper.add(part, partOf(report, double(i) / parts, (i + 1.0) / parts)))
-    {
-      return false;
-    }
-  }
-  return true;
-}
-
 /// Throws IOError if the output's extension does not fit the target's type.
 void requireExtension(const RemapArguments& arguments, vtkPointSet* target)
 {
@@ -94,7 +51,7 @@ void requireExtension(const RemapArguments& arguments, vtkPointSet* target)
   }
 }
 
-int run(RemapArguments& arguments)
+int remap(const RemapArguments& arguments)
 {
   const Stopwatch watch;
   const PathState before =
@@ -105,9 +62,9 @@ int run(RemapArguments& arguments)
   const vtkSmartPointer<vtkPointSet> target = readPointSet(arguments.Target);
   requireExtension(arguments, target);
   MeshRemapper remapper(target, arguments.Arrays, threadCount(arguments.Threads));
-  const bool isDone = isPartitionedMesh(arguments.Source)
-    ? addPieces(arguments, remapper, report)
-    : remapper.add(readPointSet(arguments.Source), report);
+  const bool isDone =
+    visitMesh(arguments.Source, *parseMemorySize(arguments.Memory), arguments.Threads, report,
+      [&remapper](vtkPointSet* part, const Report& ofPart) { return remapper.add(part, ofPart); });
   if (!isDone)
   {
     return reportInterrupt();
@@ -124,6 +81,11 @@ int run(RemapArguments& arguments)
       arguments.Source, remapper.coveredTwice());
   }
   return Success;
+}
+
+int run(RemapArguments& arguments)
+{
+  return isIdleRank() ? Success : remap(arguments);
 }
 
 constexpr const char* footer =

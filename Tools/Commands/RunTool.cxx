@@ -46,8 +46,8 @@ int run(int argc, char** argv)
   app.footer("'tipp COMMAND --help' shows the options of a command, their units and examples.\n");
   for (const auto addCommand : { &addDelaunayCommand, &addDelaunay3DCommand, &addMeshCommand,
          &addDemCommand, &addDevicesCommand, &addFlattenCommand, &addInfoCommand, &addPointsCommand,
-         &addResampleCommand, &addRemapCommand, &addPartitionCommand, &addQueryCommand,
-         &addContourCommand, &addCheckCommand })
+         &addResampleCommand, &addRemapCommand, &addVolumeCommand, &addPartitionCommand,
+         &addQueryCommand, &addContourCommand, &addCheckCommand })
   {
     addCommand(app, exitCode);
   }

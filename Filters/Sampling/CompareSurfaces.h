@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippCompareSurfaces_h
+#define tippCompareSurfaces_h
+
+#include "Overlap/CutFill.h"
+#include "Parallel/ParallelFor.h"
+#include "Predicates/Geometry.h"
+#include "Sampling/SimplexParts.h"
+#include "vtkTIPPFiltersModule.h"
+
+#include "vtkSmartPointer.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+class vtkPointSet;
+
+namespace tipp
+{
+
+/// Computes the volumes between two surfaces whose heights are the z of their points, linear in
+/// each triangle. Other cells are cut into triangles. Cells with a corner that is not finite are
+/// left out. The result does not depend on the number of threads.
+class VTKTIPPFILTERS_EXPORT SurfaceComparison
+{
+public:
+  /// `first` must have passed checkDataSet(), and is shared. `threads` is at least 1. Throws
+  /// std::runtime_error if it has cells with a volume or no cells with an area, or if `bounds` are
+  /// not sensible for it.
+  SurfaceComparison(vtkPointSet* first, const std::optional<Box2>& bounds, int threads);
+
+  /// Adds the second surface, or a part of it, which must have passed checkDataSet(). Returns false
+  /// if `report` stopped the work. Throws std::runtime_error for cells with a volume.
+  bool add(vtkPointSet* second, const Report& report);
+
+  /// Returns the sums. Throws std::runtime_error if the surfaces have no area in common.
+  CutFill result() const;
+
+  /// Sentences about cells that are left out and about cells that overlap; `names`: of the first
+  /// and of the second surface.
+  std::vector<std::string> warnings(
+    const CutFill& result, const std::string& first, const std::string& second) const;
+
+private:
+  vtkSmartPointer<vtkPointSet> First;
+  std::optional<Box2> Bounds;
+  int Threads;
+  SimplexParts Parts; ///< of the first surface
+  CutFillSums Sums;
+  Box3 Extents[2] = { Box3::empty(), Box3::empty() };
+  std::int64_t NotFinite[2] = { 0, 0 };
+};
+
+} // namespace tipp
+
+#endif
