@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Functions that sample meshes on regular grids: rasters of points, and images of meshes.
 #include "Binding.h"
+#include "MeshRange.h"
 
 #include "Dem/MakeDem.h"
 #include "Flat/FlatMesh.h"
@@ -214,13 +215,6 @@ void repeatLayers(const Lattice& lattice, std::vector<Buffer<char>>& samples)
   }
 }
 
-/// Returns the origin, spacing and numbers of samples.
-nb::tuple describe(const Lattice& lattice)
-{
-  return nb::make_tuple(
-    lattice.Min, lattice.Delta, nb::make_tuple(lattice.size(0), lattice.size(1), lattice.size(2)));
-}
-
 /// Returns the lattice as describe() does, the arrays' samples, the mask and warnings.
 /// `pointBounds`: those of the points, if the given ones are to be checked against them.
 nb::tuple resampleMesh(const InputArray& points, const InputArray& cells,
@@ -231,19 +225,10 @@ nb::tuple resampleMesh(const InputArray& points, const InputArray& cells,
 {
   Reporter reporter(std::move(progress));
   const bool surface = cells.shape(1) == 3;
-  const Box3 bounds = boxOfVtkBounds<3>(givenBounds.data());
-  const bool isChosen = given[0] == 0 || given[1] == 0 || given[2] == 0;
-  const std::array<int, 3> dimensions = isChosen ? chosenDimensions(bounds, given, surface) : given;
-  const Lattice lattice = rangeLattice(bounds, dimensions, delta);
+  const MeshSamples all = samplesOf({ givenBounds, pointBounds, given, delta }, surface);
+  const Lattice& lattice = all.Grid;
   const std::vector<NamedArray> pointArrays = namedArrays(pointData, points, "points");
   const std::vector<NamedArray> cellArrays = namedArrays(cellData, cells, "cells");
-  const std::vector<int> axes =
-    surfaceAxes({ int(lattice.size(0)), int(lattice.size(1)), int(lattice.size(2)) });
-  if (pointBounds)
-  {
-    requireSensible(
-      bounds, boxOfVtkBounds<3>(pointBounds->data()), surface ? axes : std::vector<int>{ 0, 1, 2 });
-  }
   ResampleOptions options;
   options.Device = parseDeviceChoice(device);
   options.Threads = threadCount(threads);
@@ -278,8 +263,8 @@ nb::tuple resampleMesh(const InputArray& points, const InputArray& cells,
   options.Valid = samples.back().as<unsigned char>();
   SimplexMesh mesh = meshOf(points, cells);
   mesh.Hidden = hidden ? static_cast<const unsigned char*>(hidden->data()) : nullptr;
-  mesh.Axes[0] = axes[0];
-  mesh.Axes[1] = axes[1];
+  mesh.Axes[0] = all.Axes[0];
+  mesh.Axes[1] = all.Axes[1];
   ResampleResult result;
   withoutLock(
     [&]
@@ -306,6 +291,30 @@ nb::tuple resampleMesh(const InputArray& points, const InputArray& cells,
 }
 
 } // namespace
+
+MeshSamples samplesOf(const MeshRange& range, bool isSurface)
+{
+  const Box3 bounds = boxOfVtkBounds<3>(range.Bounds.data());
+  const std::array<int, 3>& given = range.Dimensions;
+  const bool isChosen = given[0] == 0 || given[1] == 0 || given[2] == 0;
+  MeshSamples samples;
+  samples.Grid = rangeLattice(
+    bounds, isChosen ? chosenDimensions(bounds, given, isSurface) : given, range.Delta);
+  samples.Axes = surfaceAxes(
+    { int(samples.Grid.size(0)), int(samples.Grid.size(1)), int(samples.Grid.size(2)) });
+  if (range.PointBounds)
+  {
+    requireSensible(bounds, boxOfVtkBounds<3>(range.PointBounds->data()),
+      isSurface ? samples.Axes : std::vector<int>{ 0, 1, 2 });
+  }
+  return samples;
+}
+
+nb::tuple describe(const Lattice& lattice)
+{
+  return nb::make_tuple(
+    lattice.Min, lattice.Delta, nb::make_tuple(lattice.size(0), lattice.size(1), lattice.size(2)));
+}
 
 void addGridFunctions(nb::module_& module)
 {

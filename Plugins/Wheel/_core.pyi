@@ -76,6 +76,48 @@ def resample(
     progress: _Progress | None,
     /,
 ) -> tuple[_Lattice, list[_Array], _Array, list[str]]: ...
+def pixel_means(
+    points: _Array,
+    cells: _Array,
+    hidden: _Array | None,
+    point_data: _Arrays,  # float64
+    cell_data: _Arrays,
+    bounds: Sequence[float],
+    point_bounds: Sequence[float] | None,
+    dimensions: Sequence[int],
+    spacing: Sequence[float],
+    null_value: float,
+    threads: int,
+    progress: _Progress | None,
+    /,
+) -> tuple[_Lattice, list[_Array], _Array]: ...  # the means of the arrays, and the covered shares
+def remap(
+    points: _Array,
+    cells: _Array,
+    hidden: _Array | None,
+    point_data: _Arrays,  # float64
+    cell_data: _Arrays,
+    target_points: _Array,
+    target_cells: _Array,
+    null_value: float,
+    threads: int,
+    progress: _Progress | None,
+    /,
+) -> tuple[list[_Array], _Array]: ...
+def volume(
+    points: _Array,
+    cells: _Array,
+    hidden: _Array | None,
+    other_points: _Array,
+    other_cells: _Array,
+    other_hidden: _Array | None,
+    bounds: Sequence[float] | None,
+    threads: int,
+    progress: _Progress | None,
+    /,
+) -> tuple[list[float], list[int]]: ...  # cut, fill and areas; how many triangles are covered twice
+def require_sensible(bounds: Sequence[float], point_bounds: Sequence[float], /) -> None: ...
+def bounds_in_words(bounds: Sequence[float], /) -> str: ...
 def range_lattice(bounds: Sequence[float], dimensions: Sequence[int], spacing: Sequence[float], /) -> _Lattice: ...
 def read_points(
     paths: Sequence[str], wanted: Sequence[str] | None, classes: Sequence[int], returns: int, keep: Sequence[str], /

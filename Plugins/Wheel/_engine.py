@@ -498,7 +498,9 @@ def resample(mesh: Any, options: dict[str, Any], progress: Progress | None) -> I
         raise RuntimeError("the input has no points with finite coordinates, so its bounds give no range: "
                            "give bounds.")
     chosen = _selected_arrays(mesh, options["arrays"])
-    hidden, sentences = _hidden_cells(mesh, points, options, chosen[0])
+    hidden, sentences = _hidden_cells(mesh, points, options["no_data"], chosen[0])
+    if options["conservative"]:
+        return _pixel_means(mesh, points, hidden, chosen, bounds, own if is_checked else None, options, progress, sentences)
     (origin, spacing, dimensions), samples, mask, more = _core.resample(
         points, mesh.cells, hidden, chosen[0], chosen[1], bounds, own if is_checked else None,
         options["dimensions"], options["spacing"] or [0.0, 0.0, 0.0], options["null_value"], options["device"],
@@ -509,6 +511,98 @@ def resample(mesh: Any, options: dict[str, Any], progress: Progress | None) -> I
     warn([*sentences, *more])
     arrays = dict(zip([*chosen[0], *chosen[1]], samples))
     return Image(tuple(origin), tuple(spacing), dimensions, {**arrays, "vtkValidPointMask": mask})
+
+
+def _pixel_means(mesh: Mesh, points: np.ndarray, hidden: np.ndarray | None,
+                 chosen: tuple[dict[str, np.ndarray], dict[str, np.ndarray]], bounds: list[float], checked: Any,
+                 options: dict[str, Any], progress: Progress | None, sentences: list[str]) -> Image:
+    (origin, spacing, dimensions), means, shares = _core.pixel_means(
+        points, mesh.cells, hidden, _as_doubles(chosen[0]), _as_doubles(chosen[1]), bounds, checked,
+        options["dimensions"], options["spacing"] or [0.0, 0.0, 0.0], options["null_value"], options["threads"], progress)
+    finish(progress)
+    mask = (shares > 0).astype(np.int8)
+    twice = int((shares > 1).sum())
+    if twice:
+        sentences.append(f"Cells overlap: {twice} pixels are covered more than once, and each of their cells counts.")
+    if len(mesh.cells) and not mask.any():
+        sentences.append("No sample lies in a cell of the mesh: check the range and the number of samples.")
+    warn(sentences)
+    arrays = dict(zip([*chosen[0], *chosen[1]], means))
+    if options["covered_share"]:
+        arrays["CoveredShare"] = shares
+    return Image(tuple(origin), tuple(spacing), dimensions, {**arrays, "vtkValidPointMask": mask})
+
+
+def _as_doubles(arrays: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
+    return {name: np.ascontiguousarray(values, np.float64) for name, values in arrays.items()}
+
+
+def _surface(mesh: Any, name: str) -> tuple[Mesh, np.ndarray]:
+    """Returns a mesh of triangles, and its points in space."""
+    surface, _ = _simplices(mesh, name, ("vtkPointSet",), "a mesh")
+    if surface.cells.shape[1] != 3:
+        raise RuntimeError(f"the mesh '{name}' has cells with a volume: give a surface.")
+    return surface, in_space(plain(np.asarray(surface.points)))
+
+
+def remap(source: Any, target: Any, options: dict[str, Any], progress: Progress | None) -> Mesh:
+    surface, points = _surface(source, "source")
+    goal, corners = _surface(target, "target")
+    if not len(goal.cells):
+        raise RuntimeError("the target mesh has no cells with an area: give a surface.")
+    of_points, of_cells = _selected_arrays(surface, options["arrays"])
+    of_points = {name: values for name, values in of_points.items() if name not in of_cells}
+    hidden, _ = _hidden_cells(surface, points, None, {})
+    means, shares = _core.remap(points, surface.cells, hidden, _as_doubles(of_points), _as_doubles(of_cells), corners,
+                                goal.cells, options["null_value"], options["threads"], progress)
+    finish(progress)
+    twice = int((shares > 1).sum())
+    if twice:
+        warn([f"Cells of the source overlap: {twice} cells of the result are covered more than once, and each cell "
+              "counts."])
+    arrays = dict(zip([*of_points, *of_cells], means))
+    return Mesh(goal.points, goal.cells, {}, {**arrays, "CoveredShare": shares})
+
+
+def volume(before: Any, after: Any, options: dict[str, Any], progress: Progress | None) -> list[float]:
+    """Returns cut, fill, the common area, and the areas of only one surface."""
+    surfaces = [_surface(before, "before"), _surface(after, "after")]
+    arguments: list[Any] = []
+    sentences = []
+    extents = []
+    for (surface, points), name in zip(surfaces, ("first", "second")):
+        low, high = box(points)
+        extents.append(np.column_stack([low, high]).ravel().tolist())
+        hidden = _without_heights(surface, points)
+        count = 0 if hidden is None else int(hidden.sum())
+        if count:
+            sentences.append(f"The {name} surface has cells with a corner that is not finite, which are left out: {count}.")
+        arguments += [points, surface.cells, hidden]
+    if options["bounds"] is not None:
+        _core.require_sensible(options["bounds"], extents[0])
+    result, twice = _core.volume(*arguments, options["bounds"], options["threads"], progress)
+    finish(progress)
+    if not result[2] > 0:
+        within = "" if options["bounds"] is None else " within the bounds"
+        raise RuntimeError(f"The surfaces have no area in common{within}: the first one has "
+                           f"{_core.bounds_in_words(extents[0])}, and the second one has "
+                           f"{_core.bounds_in_words(extents[1])}; give surfaces of the same region and reference system.")
+    for count, name, other in zip(twice, ("first", "second"), ("second", "first")):
+        if count:
+            sentences.append(f"The {other} surface has cells that overlap, and each of them counts: triangles of the {name} "
+                             f"surface that they cover more than once: {count}.")
+    warn(sentences)
+    return list(result)
+
+
+def _without_heights(surface: Mesh, points: np.ndarray) -> np.ndarray | None:
+    """Returns a mark for each triangle that is hidden or has a corner that is not finite."""
+    hidden, _ = _hidden_cells(surface, points, None, {})
+    finite = np.isfinite(points).all(axis=1)
+    if finite.all():
+        return hidden
+    bad = ~finite[surface.cells].all(axis=1)
+    return (bad if hidden is None else bad | (hidden != 0)).astype(np.uint8)
 
 
 def _selected_arrays(mesh: Mesh, names: list[str] | None) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:
@@ -522,7 +616,7 @@ def _selected_arrays(mesh: Mesh, names: list[str] | None) -> tuple[dict[str, np.
     return result
 
 
-def _hidden_cells(mesh: Mesh, points: np.ndarray, options: dict[str, Any],
+def _hidden_cells(mesh: Mesh, points: np.ndarray, no_data: float | None,
                   arrays: dict[str, np.ndarray]) -> tuple[np.ndarray | None, list[str]]:
     """Returns a mark for each cell that gives no values, and warnings."""
     marks = np.zeros(len(mesh.cells), bool)
@@ -539,10 +633,9 @@ def _hidden_cells(mesh: Mesh, points: np.ndarray, options: dict[str, Any],
             sentences.append(f"{count} cell has a corner with a NaN or infinite coordinate and yields no value."
                              if count == 1 else
                              f"{count} cells have a corner with a NaN or infinite coordinate and yield no value.")
-    if options["no_data"] is not None:
+    if no_data is not None:
         for values in arrays.values():
-            equal = values == values.dtype.type(options["no_data"]) if values.dtype.kind == "f" else (
-                values == options["no_data"])
+            equal = values == values.dtype.type(no_data) if values.dtype.kind == "f" else values == no_data
             equal = equal.any(axis=1) if equal.ndim == 2 else equal
             marks |= equal[mesh.cells].any(axis=1)
     return (marks.astype(np.uint8) if marks.any() else None), sentences

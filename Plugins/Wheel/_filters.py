@@ -312,9 +312,10 @@ class vtkRangeResampleFilter(Filter):
         "UseInputBounds": True, "StrictBounds": False, "SamplingBounds": (0.0, 1.0, 0.0, 1.0, 0.0, 1.0),
         "SamplingDimensions": (10, 10, 10),
         "Delta": (0.0, 0.0, 0.0), "NullValue": 0.0, "UseNoDataValue": False, "NoDataValue": -99999.0,
-        "DeviceChoice": "auto", "NumberOfThreads": 0,
+        "Method": 0, "PassCoveredShare": False, "DeviceChoice": "auto", "NumberOfThreads": 0,
     }
-    LIMITS = {"NumberOfThreads": (0, None)}
+    METHOD_LINEAR, METHOD_CONSERVATIVE = range(2)
+    LIMITS = {"Method": (0, 1), "NumberOfThreads": (0, None)}
     INPUTS = ("vtkPointSet",)
     OUTPUTS = ("vtkImageData",)
     SELECTIONS = True
@@ -345,10 +346,57 @@ class vtkRangeResampleFilter(Filter):
             "strict_bounds": self.value("StrictBounds") and not self.value("UseInputBounds"), "spacing": list(self.value("Delta")),
             "dimensions": list(self.value("SamplingDimensions")), "null_value": self.value("NullValue"),
             "no_data": self.value("NoDataValue") if self.value("UseNoDataValue") else None, "arrays": names,
+            "conservative": self.value("Method") == 1, "covered_share": self.value("PassCoveredShare"),
             "device": self.value("DeviceChoice"), "threads": self.value("NumberOfThreads"),
         }
         image = _engine.resample(mesh, options, self.show_progress)
         vtkImageData.GetData(outputs, 0).ShallowCopy(in_vtk(image))
+
+
+class vtkTIPPRemap(Filter):
+    """Averages the arrays of a surface, the source, over the cells of the first input, exactly; the output is that input
+    with the means and CoveredShare as cell arrays."""
+
+    PROPERTIES = {"NullValue": float("nan"), "NumberOfThreads": 0}
+    LIMITS = {"NumberOfThreads": (0, 4096)}
+    INPUTS = ("vtkPointSet", "vtkPointSet")
+    INPUT_NAMES = {"Source": 1}
+    OUTPUTS = ("vtkPointSet",)
+    LIST = "Array"
+
+    def RequestDataObject(self, _request: Any, inputs: Any, outputs: Any) -> int:
+        kind = vtkPolyData if vtkPolyData.GetData(inputs[0]) else vtkUnstructuredGrid
+        information = outputs.GetInformationObject(0)
+        if not isinstance(information.Get(vtkDataObject.DATA_OBJECT()), kind):
+            information.Set(vtkDataObject.DATA_OBJECT(), kind())
+        return 1
+
+    def execute(self, inputs: Any, outputs: Any) -> None:
+        target = vtkPointSet.GetData(inputs[0])
+        options = {"arrays": self.texts or None, "null_value": self.value("NullValue"),
+                   "threads": self.value("NumberOfThreads")}
+        mesh = _engine.remap(vtkPointSet.GetData(inputs[1]), target, options, self.show_progress)
+        vtkPointSet.GetData(outputs, 0).ShallowCopy(in_vtk(mesh, as_grid=not target.IsA("vtkPolyData")))
+
+
+class vtkTIPPCutFill(Filter):
+    """Computes cut and fill volumes between two surfaces, exactly; the output is a vtkTable of one row with the columns
+    Cut, Fill, Net, Area, OnlyBefore and OnlyAfter."""
+
+    PROPERTIES = {"UseBounds": False, "Bounds": (0.0, 1.0, 0.0, 1.0), "NumberOfThreads": 0}
+    LIMITS = {"NumberOfThreads": (0, 4096)}
+    INPUTS = ("vtkPointSet", "vtkPointSet")
+    INPUT_NAMES = {"Source": 1}
+    OUTPUTS = ("vtkTable",)
+
+    def execute(self, inputs: Any, outputs: Any) -> None:
+        options = {"bounds": list(self.value("Bounds")) if self.value("UseBounds") else None,
+                   "threads": self.value("NumberOfThreads")}
+        cut, fill, area, *only = _engine.volume(
+            vtkPointSet.GetData(inputs[0]), vtkPointSet.GetData(inputs[1]), options, self.show_progress)
+        table = vtkTable.GetData(outputs, 0)
+        for name, value in zip(("Cut", "Fill", "Net", "Area", "OnlyBefore", "OnlyAfter"), (cut, fill, fill - cut, area, *only)):
+            table.AddColumn(vtk_array(name, [value]))
 
 
 class vtkPartitionedUnstructuredReader(Filter):

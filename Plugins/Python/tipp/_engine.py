@@ -27,8 +27,8 @@ from ._vtk import (
     arrays_of, from_vtk, grid_of, numpy_of, point_arrays, point_cloud, triangles_of, vtk_array, vtk_points,
     xyz_of)
 from .vtkTIPPFilters import (
-    vtkPartitionedMeshQuery, vtkRangeResampleFilter, vtkTIPPDelaunay2D, vtkTIPPDelaunay3D, vtkTIPPOutOfCoreDelaunay2D,
-    vtkTIPPPointsToImage, vtkTIPPRefine2D)
+    vtkPartitionedMeshQuery, vtkRangeResampleFilter, vtkTIPPCutFill, vtkTIPPDelaunay2D, vtkTIPPDelaunay3D,
+    vtkTIPPOutOfCoreDelaunay2D, vtkTIPPPointsToImage, vtkTIPPRefine2D, vtkTIPPRemap)
 from .vtkTIPPIO import vtkPartitionedUnstructuredReader, vtkPartitionedUnstructuredWriter, vtkTIPPPointReader
 
 if TYPE_CHECKING:
@@ -350,10 +350,50 @@ def resample(mesh: Any, options: dict[str, Any], progress: Progress | None) -> A
         algorithm.SetNoDataValue(options["no_data"])
     if options["arrays"] is not None:
         _select(algorithm, mesh, options["arrays"])
+    algorithm.SetMethod(algorithm.METHOD_CONSERVATIVE if options["conservative"] else algorithm.METHOD_LINEAR)
+    algorithm.SetPassCoveredShare(options["covered_share"])
     algorithm.SetNumberOfThreads(options["threads"])
     run(algorithm, call=lambda: algorithm.SetDeviceChoice(options["device"]))
     run(algorithm, progress)
     return algorithm.GetOutput()
+
+
+def remap(source: Any, target: Any, options: dict[str, Any], progress: Progress | None) -> Any:
+    _require_one_rank("remap")
+    source, target = _data_of(source), _data_of(target)
+    check.data_object(source, "source", ("vtkPointSet", "vtkCompositeDataSet"), "a mesh or a composite of meshes")
+    check.data_object(target, "target", ("vtkPointSet",), "a mesh")
+    algorithm = vtkTIPPRemap()
+    algorithm.SetInputDataObject(target)
+    algorithm.SetSourceData(source)
+    if options["arrays"] is not None:
+        check.require_arrays(options["arrays"], _own_names_in(source))
+        for name in options["arrays"]:
+            algorithm.AddArray(name)
+    algorithm.SetNullValue(options["null_value"])
+    algorithm.SetNumberOfThreads(options["threads"])
+    run(algorithm, progress)
+    return algorithm.GetOutput()
+
+
+def volume(before: Any, after: Any, options: dict[str, Any], progress: Progress | None) -> list[float]:
+    """Returns cut, fill, the common area, and the areas of only one surface."""
+    _require_one_rank("volume")
+    algorithm = vtkTIPPCutFill()
+    algorithm.SetInputDataObject(check.data_object(_data_of(before), "before", ("vtkPointSet",), "a mesh"))
+    algorithm.SetSourceData(check.data_object(_data_of(after), "after", ("vtkPointSet",), "a mesh"))
+    if options["bounds"] is not None:
+        algorithm.UseBoundsOn()
+        algorithm.SetBounds(*options["bounds"])
+    algorithm.SetNumberOfThreads(options["threads"])
+    run(algorithm, progress)
+    row = algorithm.GetOutput()
+    return [row.GetColumnByName(name).GetValue(0) for name in ("Cut", "Fill", "Area", "OnlyBefore", "OnlyAfter")]
+
+
+def _require_one_rank(function: str) -> None:
+    if _count_ranks() > 1:
+        raise RuntimeError(f"tipp.{function}() works on one rank: call it outside of tipp.ranks().")
 
 
 def _data_of(mesh: Any) -> Any:
@@ -397,6 +437,14 @@ def _select(algorithm: vtkRangeResampleFilter, mesh: Any, names: list[str]) -> N
         selection.SetUnknownArraySetting(0)
         for name in wanted:
             selection.EnableArray(name)
+
+
+def _own_names_in(mesh: Any) -> list[str]:
+    """Returns the names of a mesh's arrays of numbers, each once."""
+    found = [(data, i) for leaf in _leaves(mesh) for data in (leaf.GetPointData(), leaf.GetCellData())
+             for i in range(data.GetNumberOfArrays())]
+    names = [data.GetArrayName(i) for data, i in found if data.GetArray(i) is not None]
+    return list(dict.fromkeys(name for name in names if name and name != "vtkGhostType"))
 
 
 def _names_in(mesh: Any) -> tuple[list[str], list[str]]:

@@ -165,6 +165,8 @@ def resample(
     null_value: float = 0.0,
     no_data: float | None = None,
     arrays: str | Iterable[str] | None = None,
+    method: str = "linear",
+    covered_share: bool = False,
     device: str = "auto",
     return_type: str | None = None,
     threads: int = 0,
@@ -195,8 +197,17 @@ def resample(
         Cells with this value at a corner are not sampled (such as ADCIRC's -99999 at dry nodes).
     arrays
         The name or the names of the arrays to sample. None: all.
+    method
+        "linear": values at the samples. "conservative": exact means, as float64, over the part of each sample's pixel that
+        cells cover, of cell data, and of point data, which are linear in each triangle. A pixel has the sample as its
+        centre and reaches half way to the next ones. The sum of mean, area and covered share over all pixels is the
+        integral of the mesh within them, up to rounding. Where cells overlap, each counts, with a warning. It needs a
+        surface, one layer of samples, and two samples or a spacing along both other axes.
+    covered_share
+        With method="conservative": whether the image has the array "CoveredShare", float64, the share of each pixel that
+        cells cover: from 0 to 1, and above 1 only where cells overlap.
     device
-        "auto", "openmp", "opencl", "opencl:INDEX" or "opencl:NAME".
+        "auto", "openmp", "opencl", "opencl:INDEX" or "opencl:NAME". Means are computed by threads, whatever it is.
     return_type
         "tipp", "vtk" or "pyvista": what the result is. None: tipp's for a mesh of arrays, VTK's for a data set of VTK, and PyVista's
         for one of PyVista, whatever is installed.
@@ -206,7 +217,8 @@ def resample(
     Returns
     -------
     tipp.Image, vtkImageData or pyvista.ImageData
-        The image with the arrays and vtkValidPointMask, which is 1 for samples in a cell. as_array() returns an array
+        The image with the arrays and vtkValidPointMask, which is 1 for samples in a cell, or for means for pixels that
+        cells cover in part at least. as_array() returns an array
         in the image's shape. See return_type.
 
     Raises
@@ -216,7 +228,7 @@ def resample(
     KeyError
         If the mesh has no such array.
     RuntimeError
-        If the filter failed, or the bounds are an error as above; the message says why.
+        If the filter failed, the bounds are an error as above, or means need another mesh or range; the message says why.
     ModuleNotFoundError
         If return_type needs a library that is not installed.
     KeyboardInterrupt
@@ -237,6 +249,10 @@ def resample(
     options["null_value"] = check.number(null_value, "null_value", finite=False)
     options["no_data"] = None if no_data is None else check.number(no_data, "no_data", finite=False)
     options["arrays"] = None if arrays is None else check.names(arrays, "arrays")
+    options["conservative"] = check.choice(method, "method", {"linear": 0, "conservative": 1}) == 1
+    options["covered_share"] = check.flag(covered_share, "covered_share")
+    if options["covered_share"] and not options["conservative"]:
+        raise ValueError("covered_share needs method='conservative'.")
     options["device"] = check.text(device, "device")
     options["threads"] = check.threads(threads)
     kind = kind_of(return_type, mesh)

@@ -132,6 +132,8 @@ class Accessor:
         null_value: float = 0.0,
         no_data: float | None = None,
         arrays: str | Iterable[str] | None = None,
+        method: str = "linear",
+        covered_share: bool = False,
         device: str = "auto",
         threads: int = 0,
         progress_bar: ProgressBar = False,
@@ -139,7 +141,7 @@ class Accessor:
         """Samples the mesh on a regular grid; the arguments are those of tipp.resample(). Returns a pyvista.ImageData."""
         return resample(
             self._dataset, bounds, dimensions, spacing=spacing, null_value=null_value, no_data=no_data, arrays=arrays,
-            device=device, threads=threads, progress_bar=progress_bar)
+            method=method, covered_share=covered_share, device=device, threads=threads, progress_bar=progress_bar)
 
     def sample(
         self,
