@@ -29,6 +29,22 @@ print("devices:", ours.GetProperty("Device").GetAvailable()[:2])
 ours.UpdatePipeline()
 print("samples:", ours.GetDataInformation().GetExtent())
 
+means = RangeResample(Input=Elevation(Input=points, LowPoint=(-0.5, 0, 0), HighPoint=(0.5, 0, 0)),
+                      SamplingDimensions=[5, 5, 1], Method="Conservative", PassCoveredShare=1)
+means.UpdatePipeline()
+shares = means.PointData["CoveredShare"]
+print("means:", shares.GetRange(), [round(limit, 12) for limit in means.PointData["Elevation"].GetRange()])
+
+remapped = TIPPRemap(Input=Plane(XResolution=2, YResolution=2), Source=Elevation(Input=points, LowPoint=(-0.5, 0, 0),
+                                                                                 HighPoint=(0.5, 0, 0)))
+remapped.UpdatePipeline()
+print("remapped:", remapped.CellData["CoveredShare"].GetRange(),
+      [round(limit, 12) for limit in remapped.CellData["Elevation"].GetRange()])
+
+volumes = TIPPCutFill(Input=Plane(), Source=Plane(Origin=(-0.5, -0.5, 2), Point1=(0.5, -0.5, 2), Point2=(-0.5, 0.5, 2)))
+volumes.UpdatePipeline()
+print("volumes:", {name: volumes.RowData[name].GetRange()[0] for name in ("Cut", "Fill", "Area")})
+
 raster = TIPPPointsToImage(Input=Plane(XResolution=10, YResolution=10), Resolution=0.1, Bands=["elevation", "slope"])
 raster.UpdatePipeline()
 print("raster:", raster.GetDataInformation().GetExtent(), sorted(raster.PointData.keys()))
@@ -48,7 +64,7 @@ print("wrapped:", vtkTIPPDelaunay2D().GetClassName(), vtkTIPPRangeReader().GetUs
 definitions = servermanager.ProxyManager().SMProxyManager.GetProxyDefinitionManager()
 for group, name in (("sources", "TIPPReader"), ("writers", "TIPPWriter"), ("filters", "TIPPDelaunay2D"),
                     ("sources", "TIPPOutOfCoreDelaunay2D"), ("filters", "RangeResample"), ("filters", "TIPPPointsToImage"),
-                    ("filters", "TIPPRefine2D"),
+                    ("filters", "TIPPRefine2D"), ("filters", "TIPPRemap"), ("filters", "TIPPCutFill"),
                     ("filters", "TIPPMeshQuery")):
     proxy = servermanager.ProxyManager().NewProxy(group, name)
     names = servermanager.PropertyIterator(servermanager._getPyProxy(proxy))
@@ -66,6 +82,9 @@ EXPECTED = [
     "missing of ResampleToImage: []",
     "devices: ['auto', 'openmp']",
     "samples: (0, 255, 0, 255, 0, 0)",
+    "remapped: (1.0, 1.0) [0.25, 0.75]",
+    "volumes: {'Cut': 0.0, 'Fill': 2.0, 'Area': 1.0}",
+    "means: (0.25, 1.0) [0.0625, 0.9375]",
     "wrapped: vtkTIPPDelaunay2D False",
     "undocumented of TIPPReader: []",
     "unseen of TIPPReader: []",
@@ -81,6 +100,10 @@ EXPECTED = [
     "unseen of TIPPPointsToImage: []",
     "undocumented of TIPPRefine2D: []",
     "unseen of TIPPRefine2D: []",
+    "undocumented of TIPPRemap: []",
+    "unseen of TIPPRemap: []",
+    "undocumented of TIPPCutFill: []",
+    "unseen of TIPPCutFill: []",
     "undocumented of TIPPMeshQuery: []",
     "unseen of TIPPMeshQuery: []",
     "queried: ['CellId', 'Elevation', 'Normals', 'TextureCoordinates', 'elevation', 'vtkValidPointMask'] (0.0, 1.0)",
