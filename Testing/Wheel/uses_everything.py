@@ -54,6 +54,13 @@ def sample(mesh: tipp.Mesh) -> None:
     image = tipp.resample(mesh, PART, (20, 30), null_value=-1, arrays=["height"], return_type="tipp")
     assert isinstance(image, tipp.Image) and image.dimensions == (20, 30, 1)
     grid: NDArray[np.float64] = tipp.as_array(image, "height")
+    means = tipp.resample(mesh, PART, (20, 30), method="conservative", covered_share=True)
+    assert tipp.as_array(means, "CoveredShare").shape == (30, 20)
+    remapped = tipp.remap(mesh, tipp.delaunay_2d(POINTS[:50]), arrays="height", null_value=-1)
+    assert isinstance(remapped, tipp.Mesh) and "CoveredShare" in remapped.cell_data
+    volumes: tipp.CutFill = tipp.volume(mesh, tipp.delaunay_2d(POINTS[:50]), bounds=PART, threads=2)
+    net: float = volumes.net
+    assert net == volumes.fill - volumes.cut and volumes.area > 0
     dem: tipp.Dem = tipp.dem(POINTS, 0.1, bounds=PART, attributes=["elevation", "slope"])
     array, transform, crs = dem
     west: float = dem.transform[2]
