@@ -4,6 +4,7 @@
 
 #include "Overlap/RunningSum.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -54,6 +55,15 @@ public:
 
   int components() const { return int(this->Components); }
   std::int64_t targets() const { return std::int64_t(this->Sums.size() / (this->Components + 1)); }
+
+  /// The sums of all targets, one after another.
+  const std::vector<RunningSum>& all() const { return this->Sums; }
+
+  /// Sets the sums of the targets from `first` on.
+  void set(std::int64_t first, const std::vector<RunningSum>& sums)
+  {
+    std::copy(sums.begin(), sums.end(), this->of(first));
+  }
 
   /// Adds the sums of target `from` to those of target `to`, and sets those of `from` to 0.
   void move(std::int64_t from, std::int64_t to)

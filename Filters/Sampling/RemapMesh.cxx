@@ -2,6 +2,7 @@
 #include "Sampling/RemapMesh.h"
 
 #include "Overlap/AddOverlaps.h"
+#include "Ranks/Communicator.h"
 #include "Sampling/PlainValues.h"
 #include "Sampling/SampledImage.h"
 #include "Vtk/CellArrays.h"
@@ -16,17 +17,35 @@
 #include "vtkPointSet.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <limits>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 namespace tipp
 {
+namespace
+{
+
+/// The triangles [first, last) of a mesh.
+SimplexMesh partOf(const SimplexMesh& mesh, std::int64_t first, std::int64_t last)
+{
+  SimplexMesh part = mesh;
+  part.Ids = static_cast<const char*>(mesh.Ids) +
+    3 * std::size_t(first) * (mesh.Wide ? sizeof(std::int64_t) : sizeof(std::int32_t));
+  part.Hidden = mesh.Hidden ? mesh.Hidden + first : nullptr;
+  part.Cells = last - first;
+  return part;
+}
+
+} // namespace
 MeshRemapper::MeshRemapper(vtkPointSet* target, std::vector<std::string> names, int threads)
   : Target(target)
   , Names(std::move(names))
   , Threads(threads)
   , Parts(makeTriangles(target, "The target mesh", { 0, 1 }, threads))
+  , Last(this->Parts.Triangles.Mesh.Cells)
 {
   if (this->Parts.Triangles.Mesh.Cells == 0)
   {
@@ -35,6 +54,31 @@ MeshRemapper::MeshRemapper(vtkPointSet* target, std::vector<std::string> names, 
 }
 
 MeshRemapper::~MeshRemapper() = default;
+
+void MeshRemapper::share(const Communicator& ranks)
+{
+  std::tie(this->First, this->Last) = ranks.shareOf(this->Parts.Triangles.Mesh.Cells);
+}
+
+void MeshRemapper::gather(Communicator& ranks)
+{
+  if (!this->Sums) // no surface has an area, on no rank
+  {
+    return;
+  }
+  const std::vector<std::vector<RunningSum>> shares = ranks.gather(this->Sums->all());
+  if (ranks.isFirst())
+  {
+    const int components = this->Sums->components();
+    this->Sums = std::make_unique<OverlapSums>(this->Parts.Triangles.Mesh.Cells, components);
+    std::int64_t first = 0;
+    for (const std::vector<RunningSum>& share : shares)
+    {
+      this->Sums->set(first, share);
+      first += std::int64_t(share.size()) / (components + 1);
+    }
+  }
+}
 
 /// Finds the arrays to average in the first part of the source.
 void MeshRemapper::findArrays(vtkPointSet* source)
@@ -104,7 +148,7 @@ bool MeshRemapper::add(vtkPointSet* source, const Report& report)
     values.emplace_back(contiguous(found));
     from.Fields.push_back({ values.back().data(), array.Components, array.OfCells });
   }
-  const SimplexMesh& targets = this->Parts.Triangles.Mesh;
+  const SimplexMesh targets = partOf(this->Parts.Triangles.Mesh, this->First, this->Last);
   if (!this->Sums)
   {
     this->Sums = std::make_unique<OverlapSums>(targets.Cells, componentsOf(from.Fields));

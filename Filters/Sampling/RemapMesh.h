@@ -18,11 +18,13 @@ class vtkPointSet;
 namespace tipp
 {
 
+class Communicator;
+
 /// Computes exact means of the arrays of surfaces over the part of each cell of another surface
 /// that they cover, in the plane of x and y: of cell data, and of point data, which are linear in
 /// each triangle. The sum of mean, area and covered share over all cells is the integral over the
 /// surfaces where they are covered, up to rounding. The result does not depend on the number of
-/// threads.
+/// threads and ranks.
 class VTKTIPPFILTERS_EXPORT MeshRemapper
 {
 public:
@@ -39,6 +41,14 @@ public:
   /// first. Returns false if `report` stopped the work. Throws std::runtime_error for cells with a
   /// volume, a name that the source lacks, or arrays that differ between parts.
   bool add(vtkPointSet* source, const Report& report);
+
+  /// Shares the target's triangles among ranks: add() works on this rank's share only. To be called
+  /// before add(), with the same target on all ranks.
+  void share(const Communicator& ranks);
+
+  /// After share() and the last add(): collects the sums of all ranks on the first rank, where
+  /// finish() may then be called. All ranks must have added the same surfaces. Collective.
+  void gather(Communicator& ranks);
 
   /// Returns the cells of the target with the means as cell arrays of doubles, `null` in cells
   /// that are not covered, and the array coveredShareName. The target's own arrays are left out.
@@ -64,9 +74,11 @@ private:
   vtkSmartPointer<vtkPointSet> Target;
   std::vector<std::string> Names;
   int Threads;
-  SimplexParts Parts; ///< of the target
+  SimplexParts Parts;     ///< of the target
+  std::int64_t First = 0; ///< this rank's triangles of the target: [First, Last)
+  std::int64_t Last = 0;
   std::vector<Array> Arrays;
-  std::unique_ptr<OverlapSums> Sums; ///< of the target's triangles; then of its cells
+  std::unique_ptr<OverlapSums> Sums; ///< of this rank's triangles; of all; then of the cells
   std::int64_t CoveredTwice = 0;
   std::int64_t Covered = 0;
 };

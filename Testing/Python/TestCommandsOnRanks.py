@@ -134,6 +134,40 @@ class Resample(Commands):
             self.assertFalse((self.folder / "out.vti").exists())
 
 
+class Remap(Commands):
+    """tipp remap shares the cells of the result."""
+
+    def setUp(self):
+        super().setUp()
+        self.make_surface()
+        self.make("points", "--distribution", "uniform", "--count", 700, "--seed", 5, "-o", "few.npy")
+        self.make("delaunay", "few.npy", "-o", "coarse.vtu")
+
+    def test_file_is_that_of_one_process(self):
+        for source in ("mesh.vtu", "mesh.tipp"):
+            for target in ("coarse.vtu", "mesh.vtu"):
+                self.make("remap", source, "--to", target, "-o", "one.vtu", "--memory", "100K")
+                for ranks in (2, 3, 5):
+                    run = self.run_tipp(ranks, "remap", source, "--to", target, "-o", "shared.vtu", "--memory", "100K")
+                    self.assertEqual((run.returncode, len(run.stdout.splitlines())), (0, 1), run.stderr)
+                    self.assertEqual((self.folder / "shared.vtu").read_bytes(), (self.folder / "one.vtu").read_bytes(),
+                                     f"{source} to {target} on {ranks} ranks")
+
+    def test_more_ranks_than_cells_work(self):
+        self.write_grid(np.array([(0.2, 0.2, 0), (0.9, 0.2, 0), (0.2, 0.9, 0)]), [(VTK_TRIANGLE, (0, 1, 2))])
+        (self.folder / "mesh.vtu").rename(self.folder / "one_cell.vtu")
+        for ranks in (1, 3):
+            run = self.run_tipp(ranks, "remap", "coarse.vtu", "--to", "one_cell.vtu", "-o", f"{ranks}.vtu")
+            self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertEqual((self.folder / "1.vtu").read_bytes(), (self.folder / "3.vtu").read_bytes())
+
+    def test_array_that_is_missing_is_one_sentence(self):
+        run = self.run_tipp(3, "remap", "mesh.vtu", "--to", "coarse.vtu", "-o", "out.vtu", "--arrays", "none")
+        self.assertEqual(run.returncode, 1)
+        self.assertEqual(run.stderr.count("has no array of numbers 'none'"), 1, run.stderr)
+        self.assertFalse((self.folder / "out.vtu").exists())
+
+
 class FirstRankAlone(Commands):
     """Commands that cannot be distributed run on one rank only."""
 
@@ -168,6 +202,10 @@ class FirstRankAlone(Commands):
     def test_points_are_described_once(self):
         self.make_surface()
         self.expect_once("info", "points.npy")
+
+    def test_volumes_are_printed_once(self):
+        self.make_surface()
+        self.assertEqual(self.expect_once("volume", "mesh.vtu", "mesh.tipp").returncode, 0)
 
     def test_devices_are_listed_once(self):
         self.expect_once("devices")

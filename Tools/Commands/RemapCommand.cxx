@@ -8,6 +8,7 @@
 #include "Files/PendingOutput.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Stopwatch.h"
+#include "Ranks/Communicator.h"
 #include "Sampling/RemapMesh.h"
 #include "Vtk/DataSets.h"
 
@@ -51,23 +52,32 @@ void requireExtension(const RemapArguments& arguments, vtkPointSet* target)
   }
 }
 
-int remap(const RemapArguments& arguments)
+/// Averages on all ranks, and writes the file on the first one. Collective.
+void remap(const RemapArguments& arguments, Communicator& ranks)
 {
   const Stopwatch watch;
-  const PathState before =
-    requireWritable(arguments.Output, "", { arguments.Source, arguments.Target });
+  PathState before;
+  if (ranks.isFirst())
+  {
+    before = requireWritable(arguments.Output, "", { arguments.Source, arguments.Target });
+  }
   const ThreadLimit limit(arguments.Threads);
-  const auto bar = std::make_unique<ProgressBar>("Remapping");
+  const auto bar = ranks.isFirst() ? std::make_unique<ProgressBar>("Remapping") : nullptr;
   const Report report = progressOn(bar);
   const vtkSmartPointer<vtkPointSet> target = readPointSet(arguments.Target);
   requireExtension(arguments, target);
   MeshRemapper remapper(target, arguments.Arrays, threadCount(arguments.Threads));
-  const bool isDone =
-    visitMesh(arguments.Source, *parseMemorySize(arguments.Memory), arguments.Threads, report,
-      [&remapper](vtkPointSet* part, const Report& ofPart) { return remapper.add(part, ofPart); });
-  if (!isDone)
+  remapper.share(ranks);
+  if (!visitMesh(arguments.Source, *parseMemorySize(arguments.Memory), arguments.Threads, report,
+        [&remapper](vtkPointSet* part, const Report& ofPart)
+        { return remapper.add(part, ofPart); }))
   {
-    return reportInterrupt();
+    throw RankFailure(ranks.rank(), true, "The run was stopped.");
+  }
+  remapper.gather(ranks);
+  if (!ranks.isFirst())
+  {
+    return;
   }
   const vtkSmartPointer<vtkPointSet> result = remapper.finish(arguments.Null);
   writeXmlFile(arguments.Output, before, result);
@@ -80,12 +90,13 @@ int remap(const RemapArguments& arguments)
       "each cell counts.\n",
       arguments.Source, remapper.coveredTwice());
   }
-  return Success;
 }
 
 int run(RemapArguments& arguments)
 {
-  return isIdleRank() ? Success : remap(arguments);
+  const MpiSession session;
+  return runTogether(
+    session.controller(), [&arguments](Communicator& ranks) { remap(arguments, ranks); });
 }
 
 constexpr const char* footer =
@@ -98,7 +109,7 @@ OUTPUT  .vtp for a TARGET of polygons, .vtu for one of cells of any type: as cel
 
 Cells are in the plane of x and y. Values at points are linear in each triangle. Sums of
 mean times covered area are SOURCE's integral over TARGET. Where cells of SOURCE overlap,
-each counts, and a warning says so.
+each counts, and a warning says so. Under mpirun the ranks share TARGET's cells.
 
 Examples:
   tipp remap fine.vtu --to coarse.vtu -o means.vtu
