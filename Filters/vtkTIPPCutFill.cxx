@@ -15,8 +15,10 @@
 #include "vtkPointSet.h"
 #include "vtkTable.h"
 
+#include <array>
 #include <optional>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 vtkStandardNewMacro(vtkTIPPCutFill);
@@ -60,7 +62,7 @@ int vtkTIPPCutFill::RequestData(
 {
   vtkTable* const output = vtkTable::GetData(outputs);
   output->Initialize();
-  return tipp::runReported(this, nullptr, "Comparing: ", outputs,
+  return tipp::runReported(this, nullptr, "", outputs,
     [&]
     { this->Execute(vtkPointSet::GetData(inputs[0]), vtkDataObject::GetData(inputs[1]), output); });
 }
@@ -78,10 +80,11 @@ void vtkTIPPCutFill::Execute(vtkPointSet* before, vtkDataObject* after, vtkTable
       throw std::runtime_error("Bounds have no area: give xmin, xmax, ymin and ymax.");
     }
   }
-  tipp::checkDataSet(before, "the first surface", threads);
-  tipp::SurfaceComparison comparison(before, bounds, threads);
+  const std::array<std::string, 2> names = { "the surface before", "the surface after" };
+  tipp::checkDataSet(before, names[0], threads);
+  tipp::SurfaceComparison comparison(before, names, bounds, threads);
   tipp::Monitor monitor(this);
-  const std::vector<vtkPointSet*> meshes = tipp::meshesOf(after, threads);
+  const std::vector<vtkPointSet*> meshes = tipp::meshesOf(after, threads, names[1]);
   const double share = 1 / double(meshes.empty() ? 1 : meshes.size());
   double begin = 0;
   for (vtkPointSet* const mesh : meshes)
@@ -93,7 +96,7 @@ void vtkTIPPCutFill::Execute(vtkPointSet* before, vtkDataObject* after, vtkTable
     begin += share;
   }
   const tipp::CutFill result = comparison.result();
-  tipp::warn(this, comparison.warnings(result, "The first surface", "The second surface"));
+  tipp::warn(this, comparison.warnings(result));
   addColumn(output, "Cut", result.Cut);
   addColumn(output, "Fill", result.Fill);
   addColumn(output, "Net", result.net());

@@ -40,7 +40,7 @@ int vtkTIPPRemap::RequestData(
 {
   vtkPointSet* const output = vtkPointSet::GetData(outputs);
   output->Initialize();
-  return tipp::runReported(this, nullptr, "Remapping: ", outputs,
+  return tipp::runReported(this, nullptr, "", outputs,
     [&]
     { this->Execute(vtkPointSet::GetData(inputs[0]), vtkDataObject::GetData(inputs[1]), output); });
 }
@@ -52,7 +52,7 @@ void vtkTIPPRemap::Execute(vtkPointSet* target, vtkDataObject* source, vtkPointS
   tipp::checkDataSet(target, "the target mesh", threads);
   tipp::MeshRemapper remapper(target, this->Arrays, threads);
   tipp::Monitor monitor(this);
-  const std::vector<vtkPointSet*> meshes = tipp::meshesOf(source, threads);
+  const std::vector<vtkPointSet*> meshes = tipp::meshesOf(source, threads, "the source mesh");
   const double share = 1 / double(meshes.empty() ? 1 : meshes.size());
   double begin = 0;
   for (vtkPointSet* const mesh : meshes)

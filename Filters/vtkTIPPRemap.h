@@ -34,6 +34,7 @@
 #include <vector> // For AddArray
 
 class vtkAlgorithmOutput;
+class vtkPointSet;
 
 class VTKTIPPFILTERS_EXPORT vtkTIPPRemap : public vtkDataSetAlgorithm
 {

@@ -309,8 +309,8 @@ CutFill CutFillSums::result() const
   result.OnlySecond = areaBeyond(this->SecondArea.value(), result.Area);
   if (!std::isfinite(result.Cut + result.Fill + result.Area + result.OnlyFirst + result.OnlySecond))
   {
-    throw std::overflow_error("The volumes are too large for a number: the surfaces' coordinates "
-                              "or heights are not what they should be.");
+    throw std::runtime_error("the volumes are too large for a number: the surfaces' coordinates "
+                             "or heights are not what they should be.");
   }
   return result;
 }

@@ -49,7 +49,7 @@ public:
   bool add(const SimplexMesh& second, const Report& report);
 
   /// The sums so far, which do not depend on the number of threads. An area that only one surface
-  /// covers is 0 if rounding alone can make it. Throws std::overflow_error if a sum is too large
+  /// covers is 0 if rounding alone can make it. Throws std::runtime_error if a sum is too large
   /// for a double.
   CutFill result() const;
 

@@ -6,31 +6,34 @@
 
 #include "vtkPointSet.h"
 
+#include <cstddef>
 #include <stdexcept>
+#include <utility>
 
 namespace tipp
 {
 namespace
 {
 
-SimplexParts trianglesWithHeights(vtkPointSet* mesh, const char* name, int threads)
+SimplexParts trianglesWithHeights(vtkPointSet* mesh, const std::string& name, int threads)
 {
   return makeTriangles(mesh, name, { 0, 1, 2 }, threads);
 }
 
 } // namespace
 
-SurfaceComparison::SurfaceComparison(
-  vtkPointSet* first, const std::optional<Box2>& bounds, int threads)
+SurfaceComparison::SurfaceComparison(vtkPointSet* first, std::array<std::string, 2> names,
+  const std::optional<Box2>& bounds, int threads)
   : First(first)
+  , Names(std::move(names))
   , Bounds(bounds)
   , Threads(threads)
-  , Parts(trianglesWithHeights(first, "The first surface", threads))
+  , Parts(trianglesWithHeights(first, this->Names[0], threads))
   , Sums(this->Parts.Triangles.Mesh, bounds, threads)
 {
   if (this->Parts.Triangles.Mesh.Cells == 0)
   {
-    throw std::runtime_error("The first surface has no cells with an area: give a surface.");
+    throw std::runtime_error(this->Names[0] + " has no cells with an area: give a surface.");
   }
   this->NotFinite[0] = this->Parts.NotFinite;
   this->Extents[0] = finiteBounds(first->GetPoints());
@@ -43,7 +46,7 @@ SurfaceComparison::SurfaceComparison(
 
 bool SurfaceComparison::add(vtkPointSet* second, const Report& report)
 {
-  const SimplexParts parts = trianglesWithHeights(second, "The second surface", this->Threads);
+  const SimplexParts parts = trianglesWithHeights(second, this->Names[1], this->Threads);
   this->NotFinite[1] += parts.NotFinite;
   if (parts.Triangles.Mesh.Cells == 0)
   {
@@ -58,34 +61,43 @@ CutFill SurfaceComparison::result() const
   const CutFill result = this->Sums.result();
   if (!(result.Area > 0))
   {
-    const std::string second =
-      this->Extents[1].isEmpty() ? "has no cells with an area" : "has " + inWords(this->Extents[1]);
-    throw std::runtime_error("The surfaces have no area in common" +
-      std::string(this->Bounds ? " within the bounds" : "") + ": the first one has " +
-      inWords(this->Extents[0]) + ", and the second one " + second +
+    std::vector<std::string> leftOut;
+    this->addLeftOut(leftOut);
+    const std::string ofSecond =
+      this->Extents[1].isEmpty() ? "no cells with an area" : inWords(this->Extents[1]);
+    throw std::runtime_error("the surfaces have no area in common" +
+      std::string(this->Bounds ? " within the bounds" : "") + ": " + this->Names[0] + " has " +
+      inWords(this->Extents[0]) + ", and " + this->Names[1] + " has " + ofSecond +
+      (leftOut.empty() ? "" : "; cells that are not finite are left out") +
       "; give surfaces of the same region and reference system.");
   }
   return result;
 }
 
-std::vector<std::string> SurfaceComparison::warnings(
-  const CutFill& result, const std::string& first, const std::string& second) const
+void SurfaceComparison::addLeftOut(std::vector<std::string>& sentences) const
+{
+  for (const std::size_t i : { 0, 1 })
+  {
+    if (this->NotFinite[i] > 0)
+    {
+      sentences.push_back(this->Names[i] +
+        " has cells with a corner that is not finite, which are left out: " +
+        std::to_string(this->NotFinite[i]) + ".");
+    }
+  }
+}
+
+std::vector<std::string> SurfaceComparison::warnings(const CutFill& result) const
 {
   std::vector<std::string> sentences;
-  for (const int which : { 0, 1 })
+  this->addLeftOut(sentences);
+  for (const std::size_t i : { 0, 1 })
   {
-    const std::string& name = which == 0 ? first : second;
-    if (this->NotFinite[which] > 0)
+    if (result.CoveredTwice[i] > 0)
     {
-      sentences.push_back(name +
-        " has cells with a corner that is not finite, which are left out: " +
-        std::to_string(this->NotFinite[which]) + ".");
-    }
-    if (result.CoveredTwice[which] > 0)
-    {
-      sentences.push_back((which == 0 ? second : first) +
-        " has cells that overlap, and each of them counts: triangles of " + name +
-        " that they cover more than once: " + std::to_string(result.CoveredTwice[which]) + ".");
+      sentences.push_back(this->Names[1 - i] +
+        " has cells that overlap, and each of them counts: triangles of " + this->Names[i] +
+        " that they cover more than once: " + std::to_string(result.CoveredTwice[i]) + ".");
     }
   }
   return sentences;

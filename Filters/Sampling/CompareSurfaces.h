@@ -10,6 +10,7 @@
 
 #include "vtkSmartPointer.h"
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -26,10 +27,11 @@ namespace tipp
 class VTKTIPPFILTERS_EXPORT SurfaceComparison
 {
 public:
-  /// `first` must have passed checkDataSet(), and is shared. `threads` is at least 1. Throws
-  /// std::runtime_error if it has cells with a volume or no cells with an area, or if `bounds` are
-  /// not sensible for it.
-  SurfaceComparison(vtkPointSet* first, const std::optional<Box2>& bounds, int threads);
+  /// `first` must have passed checkDataSet(), and is shared. `names`: what messages call the two
+  /// surfaces. `threads` is at least 1. Throws std::runtime_error if the first surface has cells
+  /// with a volume or no cells with an area, or if `bounds` are not sensible for it.
+  SurfaceComparison(vtkPointSet* first, std::array<std::string, 2> names,
+    const std::optional<Box2>& bounds, int threads);
 
   /// Adds the second surface, or a part of it, which must have passed checkDataSet(). Returns false
   /// if `report` stopped the work. Throws std::runtime_error for cells with a volume.
@@ -38,13 +40,14 @@ public:
   /// Returns the sums. Throws std::runtime_error if the surfaces have no area in common.
   CutFill result() const;
 
-  /// Sentences about cells that are left out and about cells that overlap; `names`: of the first
-  /// and of the second surface.
-  std::vector<std::string> warnings(
-    const CutFill& result, const std::string& first, const std::string& second) const;
+  /// Sentences about cells that are left out and about cells that overlap.
+  std::vector<std::string> warnings(const CutFill& result) const;
 
 private:
+  void addLeftOut(std::vector<std::string>& sentences) const;
+
   vtkSmartPointer<vtkPointSet> First;
+  std::array<std::string, 2> Names;
   std::optional<Box2> Bounds;
   int Threads;
   SimplexParts Parts; ///< of the first surface

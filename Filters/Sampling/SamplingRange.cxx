@@ -111,7 +111,7 @@ vtkSmartPointer<vtkPointSet> withElevation(vtkPointSet* mesh)
   return copy;
 }
 
-std::vector<vtkPointSet*> meshesOf(vtkDataObject* data, int threads)
+std::vector<vtkPointSet*> meshesOf(vtkDataObject* data, int threads, const std::string& name)
 {
   std::vector<vtkPointSet*> meshes;
   const auto add = [&](vtkDataObject* leaf)
@@ -122,7 +122,7 @@ std::vector<vtkPointSet*> meshesOf(vtkDataObject* data, int threads)
       throw std::runtime_error(std::string("a ") + leaf->GetClassName() +
         " is no mesh with points and cells of its own: convert it to a vtkUnstructuredGrid.");
     }
-    checkDataSet(mesh, "the input", threads);
+    checkDataSet(mesh, name, threads);
     meshes.push_back(mesh);
   };
   auto* composite = vtkCompositeDataSet::SafeDownCast(data);

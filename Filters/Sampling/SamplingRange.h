@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <string>
 #include <vector>
 
 class vtkDataObject;
@@ -56,8 +57,9 @@ std::array<T, N> toArray(const T (&values)[N])
 }
 
 /// Returns the meshes of a data object: itself, or its leaves in order. Throws std::runtime_error
-/// if one is not a vtkPointSet or fails checkDataSet().
-std::vector<vtkPointSet*> meshesOf(vtkDataObject* data, int threads);
+/// if one is not a vtkPointSet or fails checkDataSet(), whose message begins with `name`.
+std::vector<vtkPointSet*> meshesOf(
+  vtkDataObject* data, int threads, const std::string& name = "the input");
 
 /// Returns `dimensions` with each 0 replaced by the number of samples that gives the spacing of the
 /// first axis with a number; by 1 along z if the meshes of all ranks are surfaces. Throws

@@ -567,42 +567,46 @@ def remap(source: Any, target: Any, options: dict[str, Any], progress: Progress 
 def volume(before: Any, after: Any, options: dict[str, Any], progress: Progress | None) -> list[float]:
     """Returns cut, fill, the common area, and the areas of only one surface."""
     surfaces = [_surface(before, "before"), _surface(after, "after")]
+    names = ("the surface before", "the surface after")
+    if not len(surfaces[0][0].cells):
+        raise RuntimeError(f"{names[0]} has no cells with an area: give a surface.")
     arguments: list[Any] = []
     sentences = []
     extents = []
-    for (surface, points), name in zip(surfaces, ("first", "second")):
+    for (surface, points), name in zip(surfaces, names):
         low, high = box(points)
         extents.append(np.column_stack([low, high]).ravel().tolist())
-        hidden = _without_heights(surface, points)
-        count = 0 if hidden is None else int(hidden.sum())
+        hidden, count = _without_heights(surface, points)
         if count:
-            sentences.append(f"The {name} surface has cells with a corner that is not finite, which are left out: {count}.")
+            sentences.append(f"{name} has cells with a corner that is not finite, which are left out: {count}.")
         arguments += [points, surface.cells, hidden]
     if options["bounds"] is not None:
         _core.require_sensible(options["bounds"], extents[0])
     result, twice = _core.volume(*arguments, options["bounds"], options["threads"], progress)
     finish(progress)
     if not result[2] > 0:
-        within = "" if options["bounds"] is None else " within the bounds"
-        raise RuntimeError(f"The surfaces have no area in common{within}: the first one has "
-                           f"{_core.bounds_in_words(extents[0])}, and the second one has "
-                           f"{_core.bounds_in_words(extents[1])}; give surfaces of the same region and reference system.")
-    for count, name, other in zip(twice, ("first", "second"), ("second", "first")):
+        ranges = [_core.bounds_in_words(extent) if len(surface.cells) else "no cells with an area"
+                  for extent, (surface, _) in zip(extents, surfaces)]
+        raise RuntimeError(
+            f"the surfaces have no area in common{'' if options['bounds'] is None else ' within the bounds'}: {names[0]} has "
+            f"{ranges[0]}, and {names[1]} has {ranges[1]}{'; cells that are not finite are left out' if sentences else ''}; "
+            "give surfaces of the same region and reference system.")
+    for count, name, other in zip(twice, names, names[::-1]):
         if count:
-            sentences.append(f"The {other} surface has cells that overlap, and each of them counts: triangles of the {name} "
-                             f"surface that they cover more than once: {count}.")
+            sentences.append(f"{other} has cells that overlap, and each of them counts: triangles of {name} that they cover "
+                             f"more than once: {count}.")
     warn(sentences)
     return list(result)
 
 
-def _without_heights(surface: Mesh, points: np.ndarray) -> np.ndarray | None:
-    """Returns a mark for each triangle that is hidden or has a corner that is not finite."""
+def _without_heights(surface: Mesh, points: np.ndarray) -> tuple[np.ndarray | None, int]:
+    """Returns a mark for each triangle that is hidden or has a corner that is not finite, and the number of the latter."""
     hidden, _ = _hidden_cells(surface, points, None, {})
     finite = np.isfinite(points).all(axis=1)
     if finite.all():
-        return hidden
+        return hidden, 0
     bad = ~finite[surface.cells].all(axis=1)
-    return (bad if hidden is None else bad | (hidden != 0)).astype(np.uint8)
+    return (bad if hidden is None else bad | (hidden != 0)).astype(np.uint8), int(bad.sum())
 
 
 def _selected_arrays(mesh: Mesh, names: list[str] | None) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:

@@ -136,15 +136,26 @@ class Volume(unittest.TestCase):
     def test_cells_with_heights_that_are_not_finite_are_left_out_with_a_warning(self):
         holed = square(1.0)
         holed.points[3, 2] = np.nan
-        with self.assertWarnsRegex(RuntimeWarning, "not finite, which are left out: 1"):
+        with self.assertWarnsRegex(RuntimeWarning, "^the surface after has cells .* not finite, which are left out: 1"):
             result = tipp.volume(square(0.0), holed)
         self.assertEqual((0.5, 0.5), (result.fill, result.area))
 
     def test_cells_that_overlap_are_a_warning(self):
         doubled = square(1.0)
         doubled = tipp.Mesh(doubled.points, np.concatenate([doubled.cells, doubled.cells]))
-        with self.assertWarnsRegex(RuntimeWarning, "The second surface has cells that overlap"):
+        with self.assertWarnsRegex(RuntimeWarning, "^the surface after has cells that overlap"):
             self.assertEqual(2.0, tipp.volume(square(0.0), doubled).fill)
+
+    def test_a_volume_that_is_too_large_for_a_number_is_an_error(self):
+        with self.assertRaisesRegex(RuntimeError, "too large for a number"):
+            tipp.volume(square(-1e308), square(1e308))
+
+    def test_a_surface_without_cells_is_an_error(self):
+        empty = tipp.Mesh(np.zeros((0, 3)), np.zeros((0, 3), np.int64))
+        with self.assertRaisesRegex(RuntimeError, "^the surface before has no cells with an area"):
+            tipp.volume(empty, square(0.0))
+        with self.assertRaisesRegex(RuntimeError, "and the surface after has no cells with an area"):
+            tipp.volume(square(0.0), empty)
 
     def test_cells_with_a_volume_are_refused(self):
         solid = tipp.delaunay_3d(np.random.default_rng(1).random((20, 3)))

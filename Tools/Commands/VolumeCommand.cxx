@@ -79,7 +79,8 @@ int compare(const VolumeArguments& arguments)
   {
     return reportInterrupt();
   }
-  SurfaceComparison comparison(whole, arguments.Bounds, threadCount(arguments.Threads));
+  SurfaceComparison comparison(
+    whole, { first, second }, arguments.Bounds, threadCount(arguments.Threads));
   if (!visitMesh(second, *parseMemorySize(arguments.Memory), arguments.Threads,
         partOf(report, 0.1, 1),
         [&comparison](vtkPointSet* part, const Report& ofPart)
@@ -89,7 +90,7 @@ int compare(const VolumeArguments& arguments)
   }
   CutFill result = comparison.result();
   bar.reset();
-  printWarnings(comparison.warnings(result, first, second));
+  printWarnings(comparison.warnings(result));
   if (isSwapped)
   {
     std::swap(result.Cut, result.Fill);
