@@ -33,17 +33,17 @@ means = RangeResample(Input=Elevation(Input=points, LowPoint=(-0.5, 0, 0), HighP
                       SamplingDimensions=[5, 5, 1], Method="Conservative", PassCoveredShare=1)
 means.UpdatePipeline()
 shares = means.PointData["CoveredShare"]
-print("means:", shares.GetRange(), [round(limit, 12) for limit in means.PointData["Elevation"].GetRange()])
+print("means:", shares.GetRange(), [round(limit, 6) for limit in means.PointData["Elevation"].GetRange()])
 
 remapped = TIPPRemap(Input=Plane(XResolution=2, YResolution=2), Source=Elevation(Input=points, LowPoint=(-0.5, 0, 0),
                                                                                  HighPoint=(0.5, 0, 0)))
 remapped.UpdatePipeline()
 print("remapped:", remapped.CellData["CoveredShare"].GetRange(),
-      [round(limit, 12) for limit in remapped.CellData["Elevation"].GetRange()])
+      [round(limit, 6) for limit in remapped.CellData["Elevation"].GetRange()])
 
 volumes = TIPPCutFill(Input=Plane(), Source=Plane(Origin=(-0.5, -0.5, 2), Point1=(0.5, -0.5, 2), Point2=(-0.5, 0.5, 2)))
-volumes.UpdatePipeline()
-print("volumes:", {name: volumes.RowData[name].GetRange()[0] for name in ("Cut", "Fill", "Area")})
+row = servermanager.Fetch(volumes)
+print("volumes:", {name: row.GetColumnByName(name).GetValue(0) for name in ("Cut", "Fill", "Area")})
 
 raster = TIPPPointsToImage(Input=Plane(XResolution=10, YResolution=10), Resolution=0.1, Bands=["elevation", "slope"])
 raster.UpdatePipeline()
