@@ -108,7 +108,7 @@ private:
 
   unsigned Width = 0;
   std::array<SymbolModel<Bits + 1>, Contexts> Widths;
-  std::array<SymbolModel<1U << modelled>, (Bits < 32 ? Bits + 1 : 32)> Corrections;
+  std::array<SymbolModel<1U << modelled, true>, (Bits < 32 ? Bits + 1 : 32)> Corrections;
 };
 
 } // namespace tipp

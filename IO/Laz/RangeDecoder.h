@@ -29,8 +29,8 @@ public:
     this->At += 4;
   }
 
-  template <unsigned Capacity>
-  [[gnu::always_inline]] unsigned symbol(SymbolModel<Capacity>& model)
+  template <unsigned Capacity, bool MayBeBit>
+  [[gnu::always_inline]] unsigned symbol(SymbolModel<Capacity, MayBeBit>& model)
   {
     const std::uint32_t unit = this->Length >> model.precision();
     return this->take(model, model.find(this->Value / unit), unit);
@@ -38,16 +38,17 @@ public:
 
   /// The same where the symbol is mostly `likely`, which must be one of the model: as the
   /// processor predicts that, it need not wait for the division and the search.
-  template <unsigned Capacity>
-  [[gnu::always_inline]] unsigned symbol(SymbolModel<Capacity>& model, unsigned likely)
+  template <unsigned Capacity, bool MayBeBit>
+  [[gnu::always_inline]] unsigned symbol(SymbolModel<Capacity, MayBeBit>& model, unsigned likely)
   {
     const std::uint32_t unit = this->Length >> model.precision();
-    const auto below = std::uint32_t(model.limit(likely) * unit);
-    const std::uint32_t above = model.end(likely, unit, this->Length);
+    std::uint16_t* const limit = model.limitOf(likely);
+    const std::uint32_t below = model.begin(limit, unit);
+    const std::uint32_t above = model.end(limit, unit, this->Length);
     if (this->Value - below < above - below)
     {
-      this->narrow(below, above);
-      model.count(likely);
+      this->renormalize(this->Value - below, above - below);
+      model.count(limit);
       return likely;
     }
     return this->take(model, model.find(this->Value / unit), unit);
@@ -75,37 +76,29 @@ private:
   {
     const std::uint32_t unit = this->Length >> count;
     const std::uint32_t bits = this->Value / unit;
-    this->Value -= bits * unit;
-    this->Length = unit;
-    this->renormalize();
+    this->renormalize(this->Value - bits * unit, unit);
     this->Excess |= bits >> count;
     return bits & ((1U << count) - 1);
   }
 
-  template <unsigned Capacity>
+  template <unsigned Capacity, bool MayBeBit>
   [[gnu::always_inline]] unsigned take(
-    SymbolModel<Capacity>& model, unsigned symbol, std::uint32_t unit)
+    SymbolModel<Capacity, MayBeBit>& model, std::uint16_t* limit, std::uint32_t unit)
   {
-    const auto below = std::uint32_t(model.limit(symbol) * unit);
-    this->narrow(below, model.end(symbol, unit, this->Length));
-    model.count(symbol);
-    return symbol;
+    const std::uint32_t below = model.begin(limit, unit);
+    const std::uint32_t above = model.end(limit, unit, this->Length);
+    this->renormalize(this->Value - below, above - below);
+    model.count(limit);
+    return model.symbolOf(limit);
   }
 
-  [[gnu::always_inline]] void narrow(std::uint32_t below, std::uint32_t above)
+  /// Sets Value and Length, after bytes are shifted in until Length has its highest byte.
+  [[gnu::always_inline]] void renormalize(std::uint32_t value, std::uint32_t length)
   {
-    this->Value -= below;
-    this->Length = above - below;
-    this->renormalize();
-  }
-
-  /// Shifts bytes in until Length has its highest byte.
-  [[gnu::always_inline]] void renormalize()
-  {
-    const unsigned shift = unsigned(__builtin_clz(this->Length)) & 24U;
-    const std::uint64_t wide = (std::uint64_t(this->Value) << 32) | this->next();
+    const unsigned shift = unsigned(__builtin_clz(length)) & 24U;
+    const std::uint64_t wide = (std::uint64_t(value) << 32) | this->next();
     this->Value = std::uint32_t((wide << shift) >> 32);
-    this->Length <<= shift;
+    this->Length = length << shift;
     this->At += shift / 8;
   }
 

@@ -24,13 +24,14 @@ public:
     this->Length = 0xFFFFFFFF;
   }
 
-  template <unsigned Capacity>
-  [[gnu::always_inline]] void symbol(SymbolModel<Capacity>& model, unsigned symbol)
+  template <unsigned Capacity, bool MayBeBit>
+  [[gnu::always_inline]] void symbol(SymbolModel<Capacity, MayBeBit>& model, unsigned symbol)
   {
     const std::uint32_t unit = this->Length >> model.precision();
-    const auto begin = std::uint32_t(model.limit(symbol) * unit);
-    this->narrow(begin, model.end(symbol, unit, this->Length) - begin);
-    model.count(symbol);
+    std::uint16_t* const limit = model.limitOf(symbol);
+    const std::uint32_t begin = model.begin(limit, unit);
+    this->narrow(begin, model.end(limit, unit, this->Length) - begin);
+    model.count(limit);
   }
 
   /// Encodes 1 to 32 bits that have no model.

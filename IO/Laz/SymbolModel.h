@@ -15,9 +15,9 @@
 namespace tipp
 {
 
-/// Returns how many of the eight ascending values at `ascending` are at most `value`, which must be
-/// lower than 2^16.
-[[gnu::always_inline]] inline unsigned countAtMost(
+/// Returns how many bytes those of the eight ascending values at `ascending` take that are at most
+/// `value`, which must be lower than 2^16.
+[[gnu::always_inline]] inline unsigned bytesAtMost(
   const std::uint16_t* ascending, std::uint32_t value)
 {
 #ifdef __SSE2__
@@ -25,12 +25,12 @@ namespace tipp
   const __m128i limit = _mm_set1_epi16(short(value));
   // SSE2 has no unsigned comparison: a saturated difference of 0 means at most.
   const __m128i atMost = _mm_cmpeq_epi16(_mm_subs_epu16(values, limit), _mm_setzero_si128());
-  return unsigned(__builtin_ctz(~unsigned(_mm_movemask_epi8(atMost)))) / 2;
+  return unsigned(__builtin_ctz(~unsigned(_mm_movemask_epi8(atMost))));
 #else
   unsigned count = 0;
   for (int i = 0; i < 8; ++i)
   {
-    count += ascending[i] <= value ? 1U : 0U;
+    count += ascending[i] <= value ? 2U : 0U;
   }
   return count;
 #endif
@@ -39,12 +39,12 @@ namespace tipp
 /// The adaptive model of an alphabet of up to Capacity symbols, by A. Said, 'Introduction to
 /// Arithmetic Coding: Theory and Practice', 2004. Probabilities are recomputed now and then, from
 /// counts, at the times that the LAZ specification fixes. The model of a bit has a precision and
-/// times of its own.
+/// times of its own: only if MayBeBit can a model be one.
 ///
 /// A symbol is found without a loop whose length the processor would mispredict: a table gives a
 /// symbol from the highest bits, and one vector comparison of the next eight limits gives the
 /// right one, except in long tails of rare symbols.
-template <unsigned Capacity>
+template <unsigned Capacity, bool MayBeBit = false>
 class SymbolModel
 {
 public:
@@ -53,8 +53,8 @@ public:
   {
     this->Symbols = symbols;
     this->Precision = symbolPrecision;
-    std::fill(this->Limits.begin(), this->Limits.end(), std::uint16_t(0xFFFF));
-    std::fill_n(this->Counts.begin(), symbols, std::uint16_t(1));
+    this->Numbers.fill(0xFFFF);
+    std::fill_n(this->Numbers.begin() + CountsAt, symbols, std::uint16_t(1));
     this->Total = 0;
     this->Cycle = symbols;
     this->update();
@@ -64,49 +64,61 @@ public:
   /// Starts as the model of a bit.
   void resetBit()
   {
-    static_assert(Capacity > 16, "the updates of small alphabets are kept simple");
+    static_assert(MayBeBit, "the precision of other models is a constant");
     this->reset(2);
     this->Precision = bitPrecision;
     this->Total = 2;
-    this->Limits[1] = 1U << (bitPrecision - 1);
+    this->Numbers[1] = 1U << (bitPrecision - 1);
     this->Cycle = this->Left = 4;
   }
 
   /// A limit is a probability times 2 to this power.
-  unsigned precision() const { return Capacity > 16 ? this->Precision : symbolPrecision; }
+  unsigned precision() const { return MayBeBit ? this->Precision : symbolPrecision; }
 
-  /// Returns the symbol whose interval holds `target`.
-  [[gnu::always_inline]] unsigned find(std::uint32_t target) const
+  /// Returns the lower limit of the symbol whose interval holds `target`. The upper one follows it,
+  /// so both are loaded without waiting for the symbol to be computed.
+  [[gnu::always_inline]] std::uint16_t* find(std::uint32_t target)
   {
-    unsigned symbol = 0;
+    std::uint16_t* limit = this->Numbers.data();
     if constexpr (HasTable)
     {
-      symbol = this->First[target >> BucketShift];
+      limit += this->First[target >> BucketShift];
     }
-    unsigned more = 0;
+    unsigned bytes = 0;
     do
     {
-      more = countAtMost(&this->Limits[symbol + 1], target);
-      symbol += more;
-    } while (more == 8); // the limits end with 0xFFFF, which no target reaches
-    return symbol;
+      bytes = bytesAtMost(limit + 1, target);
+      limit = reinterpret_cast<std::uint16_t*>(reinterpret_cast<char*>(limit) + bytes);
+    } while (bytes == 16); // the limits end with 0xFFFF, which no target reaches
+    return limit;
   }
 
-  /// The lower limit of the symbol's interval; that after the last symbol is 0xFFFF.
-  std::uint64_t limit(unsigned symbol) const { return this->Limits[symbol]; }
-
-  /// Where the symbol's interval ends in one of this length, whose units are `unit` long. The last
-  /// symbol has all that is left, which is a little more than its probability.
-  [[gnu::always_inline]] std::uint32_t end(
-    unsigned symbol, std::uint32_t unit, std::uint32_t length) const
+  /// The symbol of a lower limit, and the lower limit of a symbol.
+  unsigned symbolOf(const std::uint16_t* limit) const
   {
-    return std::uint32_t(std::min<std::uint64_t>(this->limit(symbol + 1) * unit, length));
+    return unsigned(limit - this->Numbers.data());
+  }
+  std::uint16_t* limitOf(unsigned symbol) { return this->Numbers.data() + symbol; }
+
+  /// Where a symbol's interval begins in one whose units are `unit` long.
+  [[gnu::always_inline]] static std::uint32_t begin(const std::uint16_t* limit, std::uint32_t unit)
+  {
+    return *limit * unit;
   }
 
-  [[gnu::always_inline]] void count(unsigned symbol)
+  /// Where it ends in one of this length. The last symbol, whose upper limit is 0xFFFF, has all
+  /// that is left, which is a little more than its probability.
+  [[gnu::always_inline]] static std::uint32_t end(
+    const std::uint16_t* limit, std::uint32_t unit, std::uint32_t length)
   {
-    ++this->Counts[symbol];
-    if (--this->Left == 0)
+    return std::uint32_t(std::min<std::uint64_t>(std::uint64_t(limit[1]) * unit, length));
+  }
+
+  /// Counts the symbol of a lower limit.
+  [[gnu::always_inline]] void count(std::uint16_t* limit)
+  {
+    ++limit[CountsAt];
+    if (__builtin_expect(--this->Left == 0, 0))
     {
       this->update();
     }
@@ -115,8 +127,9 @@ public:
 private:
   static constexpr unsigned symbolPrecision = 15;
   static constexpr unsigned bitPrecision = 13;
+  static constexpr unsigned CountsAt = Capacity + 8; ///< limits and padding precede the counts
   static constexpr bool HasTable = Capacity > 16;
-  static constexpr unsigned BucketBits = Capacity > 64 ? 6 : 5;
+  static constexpr unsigned BucketBits = Capacity >= 64 ? 6 : 5;
   static constexpr unsigned BucketShift = symbolPrecision - BucketBits;
   /// Targets are up to 32831, because a length is rounded down before it is divided.
   static constexpr unsigned Buckets = (1U << BucketBits) + 1;
@@ -124,29 +137,30 @@ private:
 
   [[gnu::noinline]] void update()
   {
-    if (Capacity > 16 && this->Precision == bitPrecision)
+    if (MayBeBit && this->Precision == bitPrecision)
     {
       this->updateBit();
       return;
     }
     constexpr std::uint32_t mostTotal = 1U << symbolPrecision;
     const unsigned symbols = this->Symbols;
+    std::uint16_t* const counts = this->Numbers.data() + CountsAt;
     this->Total += this->Cycle;
     if (this->Total > mostTotal)
     {
       this->Total = 0;
       for (unsigned i = 0; i < symbols; ++i)
       {
-        this->Counts[i] = std::uint16_t((this->Counts[i] + 1U) / 2);
-        this->Total += this->Counts[i];
+        counts[i] = std::uint16_t((counts[i] + 1U) / 2);
+        this->Total += counts[i];
       }
     }
     const std::uint32_t scale = 0x80000000U / this->Total;
     std::uint32_t sum = 0;
     for (unsigned i = 0; i < symbols; ++i)
     {
-      this->Limits[i] = std::uint16_t((scale * sum) >> 16);
-      sum += this->Counts[i];
+      this->Numbers[i] = std::uint16_t((scale * sum) >> 16);
+      sum += counts[i];
     }
     if constexpr (HasTable)
     {
@@ -158,17 +172,17 @@ private:
 
   void updateBit()
   {
-    std::uint32_t zeros = this->Counts[0];
+    std::uint32_t zeros = this->Numbers[CountsAt];
     this->Total += this->Cycle;
     if (this->Total > 1U << bitPrecision)
     {
       this->Total = (this->Total + 1) / 2;
       zeros = (zeros + 1) / 2;
       this->Total += zeros == this->Total ? 1 : 0;
-      this->Counts[0] = std::uint16_t(zeros);
+      this->Numbers[CountsAt] = std::uint16_t(zeros);
     }
     const std::uint32_t scale = 0x80000000U / this->Total;
-    this->Limits[1] = std::uint16_t((zeros * scale) >> (31 - bitPrecision));
+    this->Numbers[1] = std::uint16_t((zeros * scale) >> (31 - bitPrecision));
     this->Cycle = std::min(this->Cycle * 5 / 4, 64U);
     this->Left = this->Cycle;
   }
@@ -179,7 +193,7 @@ private:
     this->First.fill(0);
     for (unsigned i = 0; i < this->Symbols; ++i)
     {
-      this->First[this->Limits[i] >> BucketShift] = Index(i);
+      this->First[this->Numbers[i] >> BucketShift] = Index(i);
     }
     Index before = 0;
     for (Index& first : this->First)
@@ -196,8 +210,9 @@ private:
   std::uint32_t Symbols = 0;
   std::uint32_t Precision = symbolPrecision;
   std::array<Index, HasTable ? Buckets : 1> First;
-  std::array<std::uint16_t, Capacity + 8> Limits; ///< lower limits, then 0xFFFF
-  std::array<std::uint16_t, Capacity> Counts;
+  /// The lower limits, then 0xFFFF for those that there are not and eight more, then the counts:
+  /// one array, in which a limit's address leads to the count.
+  std::array<std::uint16_t, CountsAt + Capacity> Numbers;
 };
 
 } // namespace tipp
