@@ -5,6 +5,7 @@
 #include "Parallel/BoundsOf.h"
 #include "Parallel/Stopwatch.h"
 #include "Sampling/SamplingLattice.h"
+#include "Series/SpacePoints.h"
 
 #include <algorithm>
 #include <cmath>
@@ -75,22 +76,9 @@ std::optional<SeriesSamples> findSamples(
   {
     throw IOError(series.Path, "has more than 2147483647 nodes or triangles; partition it first.");
   }
-  std::vector<double> points(3 * std::size_t(nodes));
-  forIndices(
-    nodes,
-    [&](std::int64_t i)
-    {
-      points[3 * std::size_t(i)] = read.XY[2 * std::size_t(i)];
-      points[3 * std::size_t(i) + 1] = read.XY[2 * std::size_t(i) + 1];
-    },
-    threads);
+  const SpacePoints points(read.XY, threads);
   read.XY = {};
-  SimplexMesh mesh;
-  mesh.Points = points.data();
-  mesh.PointCount = nodes;
-  mesh.Ids = read.Triangles.data();
-  mesh.Wide = true;
-  mesh.Cells = std::int64_t(read.Triangles.size() / 3);
+  const SimplexMesh mesh = points.meshOf(read.Triangles);
   std::optional<KeptSamples> kept = KeptSamples::find(mesh, samples.Grid, threads, progress);
   if (!kept)
   {

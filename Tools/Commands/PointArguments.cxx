@@ -263,12 +263,6 @@ void addCurveOption(CLI::App& command)
     ->check(checkPositive);
 }
 
-void addStepOption(CLI::App& command, int& step)
-{
-  addChecked(command, "--step", step, CLI::Range(0, std::numeric_limits<int>::max()),
-    "The time step of arrays that vary in time, counted from 0");
-}
-
 void addThreadsOption(CLI::App& command, int& threads)
 {
   addChecked(command, "--threads", threads, CLI::Range(0, 4096),

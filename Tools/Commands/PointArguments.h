@@ -102,9 +102,6 @@ void addChecked(CLI::App& command, const std::string& name, Value& value, const 
 /// Adds the option --curve-tolerance, for commands that read lines or polygons of a GIS.
 void addCurveOption(CLI::App& command);
 
-/// Adds the option --step, for the number of a time step.
-void addStepOption(CLI::App& command, int& step);
-
 /// Adds the option --threads.
 void addThreadsOption(CLI::App& command, int& threads);
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/Commands.h"
+#include "Commands/OpenSeries.h"
 #include "Commands/PointArguments.h"
+#include "Commands/QuerySeries.h"
 #include "Commands/Report.h"
 #include "Commands/VtkFiles.h"
 #include "Console/Process.h"
@@ -10,6 +12,7 @@
 #include "Files/OutputFile.h"
 #include "Files/PendingOutput.h"
 #include "Files/Platform.h"
+#include "Files/TextFile.h"
 #include "Gis/GisFiles.h"
 #include "Npy/NpyFile.h"
 #include "Parallel/ParallelFor.h"
@@ -47,8 +50,8 @@ struct QueryMeshArguments
   std::string Path;
   /// Memory limit for the pieces of a partitioned mesh, as text.
   std::string Memory = "1G";
-  /// Time step of arrays that vary in time.
-  int Step = 0;
+  /// Time step of arrays that vary in time, as text.
+  std::string Step;
   int Threads = 0;
 };
 
@@ -72,25 +75,21 @@ struct RegionArguments
 /// Adds --step, --memory and --threads.
 void addQueryMeshOptions(CLI::App& command, QueryMeshArguments& arguments)
 {
-  addStepOption(command, arguments.Step);
+  addChecked(command, "--step", arguments.Step, checkSteps,
+    "The time step of arrays that vary in time, counted from 0; for stations of the output of a "
+    "model also all (the default) or FIRST:LAST:STRIDE with LAST included");
   addChecked(command, "--memory", arguments.Memory, checkMemorySize,
     "The memory limit for pieces of a partitioned mesh");
   addThreadsOption(command, arguments.Threads);
 }
 
-/// Returns a name as a field of a .csv file, in quotes if necessary.
-std::string quotedField(const std::string& name)
+int stepNumber(const std::string& text)
 {
-  if (name.find_first_of(",\"\n") == std::string::npos)
-  {
-    return name;
-  }
-  std::string text = "\"";
-  for (const char c : name)
-  {
-    text += c == '"' ? "\"\"" : std::string(1, c);
-  }
-  return text + "\"";
+  std::int64_t step = 0;
+  refuseIf(!text.empty() &&
+      (!isOneStep(text) || !parseInteger(text, step) || step > std::numeric_limits<int>::max()),
+    "--step", "must be a number for this mesh");
+  return int(step);
 }
 
 /// Opens a partitioned mesh, or reads a VTK file of any kind. Throws IOError.
@@ -99,7 +98,7 @@ std::unique_ptr<ResidentMesh> openQueryMesh(const QueryMeshArguments& arguments)
   ResidentOptions options;
   options.MemoryLimit = *parseMemorySize(arguments.Memory);
   options.Threads = arguments.Threads;
-  options.Step = arguments.Step;
+  options.Step = stepNumber(arguments.Step);
   if (isPartitionedMesh(arguments.Path))
   {
     return std::make_unique<ResidentMesh>(arguments.Path, options);
@@ -335,9 +334,14 @@ constexpr const char* footer =
 MESH    a partitioned mesh, made by 'tipp partition' or 'tipp delaunay', of which only
         pieces with points in them are read; or any VTK file of triangles, tetrahedra or
         other cells, which are cut into these.
+        Or the output of a model, as for 'tipp resample': values at stations through time.
 VALUES  .csv: a line for each point with its coordinates, the id of the cell that contains
         it (-1: outside), and the arrays' values, empty outside. .npy: only the arrays,
         as float64, a row for each point, nan outside.
+
+        Of the output of a model: a line for each time step and station, with the time, the
+        station's number from 0, its coordinates and the values; .npy: steps x stations x
+        arrays.
 
 ZONES   with --zones: polygons of a .gpkg, .shp, .geojson or .fgb file, or of a .csv file
         with a column WKT, instead of points. VALUES is then a .csv file with a line for
@@ -358,6 +362,7 @@ Examples:
   tipp query stations.csv coast.tipp -o levels.csv --arrays elevation
   mpirun -np 4 tipp query stations.npy coast.tipp -o levels.npy --memory 512M
   tipp query stations.csv coast.tipp -o nearest.csv --closest
+  tipp query gauges.csv fort.63.nc -o series.csv --arrays zeta
   tipp query coast.tipp --zones districts.gpkg --zone-names name -o flooded.csv --level 2.5
   tipp query coast.tipp --ids cells --bounds 0 50 20 80 -o cells.csv
   tipp query springs.csv terrain.tipp -o rivers.vtp --descend elevation
@@ -375,6 +380,8 @@ struct QueryArguments
   ZoneArguments Zones;
   RegionArguments Region;
   PointOptions Reading;
+  std::vector<std::string> Values; ///< more files with values at the mesh's nodes or cells
+  std::optional<double> NoData;    ///< a value that counts as none, in the output of a model
 
   /// Returns whether the query is about the mesh alone, without points.
   bool isOfMesh() const { return !this->Zones.Path.empty() || !this->Region.Ids.empty(); }
@@ -697,8 +704,19 @@ void addOptions(CLI::App& command, QueryArguments& arguments)
     ->excludes(zones)
     ->excludes(ids);
   addQueryMeshOptions(command, arguments.Mesh);
+  command.add_option("--values", arguments.Values,
+    "For the output of a model: more files with values at its nodes or cells, such as fort.63");
+  command.add_option("--no-data", arguments.NoData,
+    "For the output of a model: a value that counts as none, such as -99999 at dry nodes");
   addPointOptions(command, arguments.Reading);
   addCurveOption(command);
+}
+
+StationArguments stationsOf(const QueryArguments& arguments)
+{
+  return { arguments.Points, arguments.Mesh.Path, arguments.Output, arguments.Arrays,
+    arguments.Values, arguments.Mesh.Step, arguments.NoData, arguments.Reading,
+    arguments.Mesh.Threads };
 }
 
 int run(QueryArguments& arguments)
@@ -723,6 +741,14 @@ int run(QueryArguments& arguments)
     std::swap(arguments.Points, arguments.Mesh.Path);
   }
   checkOutput(arguments);
+  if (const StationArguments stations = stationsOf(arguments); isStationRun(stations))
+  {
+    refuseIf(isOfMesh || !arguments.Descend.empty() || arguments.Closest || arguments.Weights,
+      "--zones, --ids, --descend, --closest and --weights",
+      "are not for the output of a model; partition it first, as with 'tipp flatten' and "
+      "'tipp partition'");
+    return isIdleRank() ? Success : runStations(stations);
+  }
   return runOnRanks([&](Communicator& ranks) { runQuery(arguments, ranks); });
 }
 

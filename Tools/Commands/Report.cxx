@@ -73,6 +73,20 @@ int reportRankFailure(const RankFailure& failure, const Communicator& ranks)
 
 } // namespace
 
+std::string quotedField(const std::string& name)
+{
+  if (name.find_first_of(",\"\n") == std::string::npos)
+  {
+    return name;
+  }
+  std::string text = "\"";
+  for (const char c : name)
+  {
+    text += c == '"' ? "\"\"" : std::string(1, c);
+  }
+  return text + "\"";
+}
+
 std::string TimeLeft::update(double fraction, double seconds)
 {
   if (this->FirstFraction < 0)

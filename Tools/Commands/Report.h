@@ -23,6 +23,9 @@ namespace tipp
 /// Returns a number with a noun that agrees with it, such as "1 triangle" or "2 triangles".
 std::string counted(std::int64_t count, const char* one, const char* many);
 
+/// Returns a name as a field of a .csv file, in quotes if necessary.
+std::string quotedField(const std::string& name);
+
 /// Estimates the remaining time of a task from the progress since the first update. Work that an
 /// earlier, interrupted run did is not counted.
 class TimeLeft

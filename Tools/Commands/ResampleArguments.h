@@ -4,7 +4,6 @@
 
 #include "Files/Formats.h"
 
-#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -40,12 +39,6 @@ struct ResampleArguments
   bool CoveredShare = false;       ///< whether to add the share of each pixel that is covered
   std::string Memory = "1G"; ///< of the part of a partitioned mesh that is in memory at a time
 };
-
-/// Returns the numbers of the time steps that a text asks for, of the `count` steps of the file
-/// `path`: "N", "all" or "FIRST:LAST:STRIDE", where each may be left out, and LAST is included. An
-/// empty text is step 0. Throws IOError for another text, and if there is no such step.
-std::vector<std::size_t> parseSteps(
-  const std::string& text, std::size_t count, const std::string& path);
 
 /// Whether the time steps of the input are resampled one by one, with runSeries().
 bool isSeriesRun(const ResampleArguments& arguments);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Arrays/Scalar.h"
 #include "Commands/Commands.h"
+#include "Commands/OpenSeries.h"
 #include "Commands/PointArguments.h"
 #include "Commands/Report.h"
 #include "Commands/ResampleArguments.h"
@@ -712,7 +713,7 @@ int runResample(const ResampleArguments& arguments)
 
 void addSeriesOptions(CLI::App& command, ResampleArguments& arguments)
 {
-  command.add_option("--step", arguments.Step,
+  addChecked(command, "--step", arguments.Step, checkSteps,
     "The time steps, counted from 0: a number, all or FIRST:LAST:STRIDE with LAST included");
   command.add_option("--values", arguments.Values,
     "More files with values at the mesh's nodes or cells, such as fort.63");

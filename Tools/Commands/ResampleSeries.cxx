@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Series/ResampleSeries.h"
+#include "Commands/OpenSeries.h"
 #include "Commands/PointArguments.h"
 #include "Commands/Report.h"
 #include "Commands/ResampleArguments.h"
 #include "Console/Process.h"
 #include "Crs/ReferenceSystem.h"
 #include "Files/IOError.h"
-#include "Files/TextFile.h"
-#include "Flat/FlatMesh.h"
 #include "Parallel/Stopwatch.h"
 #include "Raster/RasterFile.h"
-#include "Series/FlatSeries.h"
 #include "Series/SeriesFiles.h"
 
 #include <fmt/format.h>
@@ -21,71 +19,6 @@
 
 namespace tipp
 {
-namespace
-{
-
-[[noreturn]] void refuseSteps(const std::string& text, const std::string& path)
-{
-  throw IOError(path,
-    "has no time steps '" + text + "'; give a number, all or FIRST:LAST:STRIDE, such as 0:99:10.");
-}
-
-/// Splits FIRST:LAST:STRIDE; a part that is left out keeps its value.
-void parseRange(const std::string& text, std::vector<std::int64_t>& parts, const std::string& path)
-{
-  std::vector<std::string_view> fields;
-  splitFields(text, ':', fields);
-  if (fields.size() > parts.size())
-  {
-    refuseSteps(text, path);
-  }
-  for (std::size_t i = 0; i < fields.size(); ++i)
-  {
-    if (!fields[i].empty() && !parseInteger(fields[i], parts[i]))
-    {
-      refuseSteps(text, path);
-    }
-  }
-}
-
-} // namespace
-
-std::vector<std::size_t> parseSteps(
-  const std::string& text, std::size_t count, const std::string& path)
-{
-  const auto last = std::int64_t(count) - 1;
-  std::vector<std::int64_t> parts = { 0, last, 1 };
-  if (text.find(':') != std::string::npos)
-  {
-    parseRange(text, parts, path);
-  }
-  else if (text != "all")
-  {
-    if (!text.empty() && !parseInteger(text, parts[0]))
-    {
-      refuseSteps(text, path);
-    }
-    parts[1] = parts[0];
-  }
-  const bool isStatic = count == 0 && parts[0] == 0 && text.find(':') == std::string::npos;
-  if (isStatic)
-  {
-    return { 0 };
-  }
-  if (parts[0] < 0 || parts[1] > last || parts[0] > parts[1] || parts[2] < 1)
-  {
-    throw IOError(path,
-      "has no time step " + (text.empty() ? "0" : text) + "; there are " + std::to_string(count) +
-        ", counted from 0.");
-  }
-  std::vector<std::size_t> steps;
-  for (std::int64_t step = parts[0]; step <= parts[1]; step += parts[2])
-  {
-    steps.push_back(std::size_t(step));
-  }
-  return steps;
-}
-
 bool isSeriesRun(const ResampleArguments& arguments)
 {
   const bool isOneStep = std::all_of(
@@ -108,27 +41,6 @@ void refuseOthers(const ResampleArguments& arguments)
   refuseIf(!formatOf(arguments.Output, Use::WritesSeries), "--output",
     "must end in " + listFormats(Use::WritesSeries) + " for time steps");
   refuseIf(arguments.WithSteps && arguments.Reduce.empty(), "--with-steps", "needs --reduce");
-}
-
-std::unique_ptr<MeshSeries> openSeries(const ResampleArguments& arguments)
-{
-  if (isMeshSeries(arguments.Input))
-  {
-    SeriesOptions options;
-    options.Values = arguments.Values;
-    options.Wrap = arguments.Wrap;
-    return openMeshSeries(arguments.Input, options);
-  }
-  if (!isFlatMesh(arguments.Input))
-  {
-    throw IOError(arguments.Input,
-      "is not a mesh with time steps that are resampled one after another; flatten it first, as "
-      "with 'tipp flatten " +
-        arguments.Input + " -o mesh'.");
-  }
-  refuseIf(!arguments.Values.empty(), "--values", "is not for a flat mesh, which has all values");
-  refuseIf(arguments.Wrap, "--wrap", "is not for a flat mesh; give it to 'tipp flatten'");
-  return openFlatSeries(arguments.Input);
 }
 
 std::vector<std::size_t> variablesOf(const MeshSeries& series, const ResampleArguments& arguments)
@@ -238,7 +150,8 @@ void summarize(const ResampleArguments& arguments, const SeriesSamples& samples,
 int runSeries(const ResampleArguments& arguments)
 {
   refuseOthers(arguments);
-  const std::unique_ptr<MeshSeries> series = openSeries(arguments);
+  const std::unique_ptr<MeshSeries> series =
+    openSeries(arguments.Input, { arguments.Values, arguments.Wrap });
   SeriesPlan plan = planOf(*series, arguments);
   if (!arguments.Crs.empty())
   {

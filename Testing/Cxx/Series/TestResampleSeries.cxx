@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Series/ResampleSeries.h"
+#include "Series/SeriesAtPoints.h"
 
 #include "Resample/Resample.h"
 #include "Sampling/SamplingLattice.h"
@@ -325,4 +326,23 @@ TEST(ResampleSeries, StopsWhenTheCallerWishes)
   EXPECT_FALSE(resampleSeries(series, *samples, plan, output));
   EXPECT_EQ(2u, output.Samples.size());
   EXPECT_FALSE(findSamples(series, rangeOf(300), 1, [](double) { return false; }));
+}
+
+TEST(SeriesAtPoints, InterpolateInTheTriangleOfEachPoint)
+{
+  Basin series(2);
+  const std::vector<Point3> points = { { 0.31, 0.62, 9 }, { 0.9, 0.05, 0 }, { 3, 3, 0 } };
+  const SeriesAtPoints located(series, points, 2);
+  std::vector<double> read;
+  for (std::size_t i = 0; i < side * side; ++i)
+  {
+    read.push_back(2 * series.XY[2 * i] - series.XY[2 * i + 1]);
+  }
+  const std::vector<double> values = located.valuesOf(series.Variables[0], read);
+  EXPECT_NEAR(0.0, values[0], 1e-14);
+  EXPECT_NEAR(1.75, values[1], 1e-14);
+  EXPECT_TRUE(std::isnan(values[2]));
+  series.read(3, 0, read);
+  EXPECT_EQ(double(located.triangles()[1]), located.valuesOf(series.Variables[3], read)[1]);
+  EXPECT_EQ(-1, located.triangles()[2]);
 }

@@ -211,7 +211,7 @@ TEST_F(TippQuery, RefusesInvalidQueries)
   expect({ "query", "mesh.tipp", "--ids", "cells", "--polygons", "overlap.csv", "-o", "out.csv" },
     1, "overlaps another one");
   this->Folder.file("fort.14", "");
-  expect({ "query", "asked.csv", "fort.14", "-o", "out.csv" }, 1, "'tipp flatten fort.14 -o mesh'");
+  expect({ "query", "asked.csv", "fort.14", "-o", "out.csv" }, 1, "fort.14, line 0: the file ends");
   expect({ "query", "asked.csv", "mesh.tipp", "-o", "out.vtu" }, 2, "does not end in .csv or .npy");
   expect({ "query", "asked.csv", "mesh.tipp", "-o", "asked.csv" }, 1, "asked.csv");
   std::filesystem::remove(this->Folder.path("mesh.tipp/pieces/000000.vtu"));

@@ -39,13 +39,18 @@ TEST_F(TippResampleSeries, TakesStepsByFirstLastAndStride)
 
 TEST_F(TippResampleSeries, RefusesStepsThatThereAreNot)
 {
-  for (const char* steps :
-    { "0:4", "2:1", "::0", "-1:2", "a:b", "0:1:1:1", "0:99999999999999999999" })
+  for (const char* steps : { "0:4", "2:1", "::0", "4:", "0:99999999999" })
   {
     const Outcome outcome = this->run({ "-o", "no.npy", "--step", steps, "--arrays", "level" });
     EXPECT_EQ(1, outcome.ExitCode) << steps;
     EXPECT_NE(outcome.Err.find("surge: has no time step"), std::string::npos) << outcome.Err;
     EXPECT_FALSE(this->exists("no.npy"));
+  }
+  for (const char* steps : { "-1", "-1:2", "a:b", "0:1:1:1", "0:99999999999999999999", "every" })
+  {
+    const Outcome outcome = this->run({ "-o", "no.npy", "--step", steps, "--arrays", "level" });
+    EXPECT_EQ(2, outcome.ExitCode) << steps;
+    EXPECT_NE(outcome.Err.find("is neither a number of a step"), std::string::npos) << outcome.Err;
   }
 }
 
@@ -147,4 +152,43 @@ TEST_F(TippResampleSeries, DoesNotDependOnThreads)
         .ExitCode);
   }
   EXPECT_EQ(contentOf(this->Folder.path("1.npy")), contentOf(this->Folder.path("3.npy")));
+}
+
+TEST_F(TippResampleSeries, IsAskedForValuesAtStations)
+{
+  this->Folder.file("gauges.csv", "x,y\n0.5,0.25\n1,1\n5,5\n");
+  const Outcome outcome = runTipp(this->Folder,
+    { "query", "gauges.csv", "surge", "-o", "series.csv", "--step", "1:2", "--no-data=-99999" });
+  ASSERT_EQ(0, outcome.ExitCode) << outcome.Err;
+  EXPECT_NE(outcome.Out.find("3 stations, 1 outside of the mesh, 2 steps"), std::string::npos);
+  EXPECT_EQ("time,station,x,y,level\n60,0,0.5,0.25,10.5\n60,1,1,1,11\n60,2,5,5,\n"
+            "120,0,0.5,0.25,20.5\n120,1,1,1,\n120,2,5,5,\n",
+    contentOf(this->Folder.path("series.csv")));
+}
+
+TEST_F(TippResampleSeries, IsAskedForStationsAsAnArray)
+{
+  this->Folder.file("gauges.csv", "x,y\n0.5,0.25\n1,0\n");
+  ASSERT_EQ(0,
+    runTipp(this->Folder,
+      { "query", "gauges.csv", "surge", "-o", "series.npy", "--step", "all", "--arrays",
+        "level,depth" })
+      .ExitCode);
+  const InputFile file(this->Folder.path("series.npy"));
+  const NpyArray array = openNpyArray(file);
+  EXPECT_EQ("4 x 2 x 2", array.shapeText());
+  std::vector<double> values(16);
+  file.read(array.Offset, values.data(), values.size() * sizeof(double));
+  EXPECT_EQ((std::vector<double>{
+              0.5, 0.25, 1, 0, 10.5, 0.25, 11, 0, 20.5, 0.25, 21, 0, 30.5, 0.25, 31, 0 }),
+    values);
+}
+
+TEST_F(TippResampleSeries, RefusesQueriesThatNeedAPartitionedMesh)
+{
+  this->Folder.file("gauges.csv", "x,y\n0.5,0.25\n");
+  const Outcome outcome = runTipp(
+    this->Folder, { "query", "gauges.csv", "surge", "-o", "no.csv", "--step", "all", "--closest" });
+  EXPECT_NE(0, outcome.ExitCode);
+  EXPECT_NE(outcome.Err.find("partition it first"), std::string::npos) << outcome.Err;
 }
