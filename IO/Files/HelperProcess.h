@@ -33,7 +33,7 @@ public:
   using Answer = std::function<std::string(const std::string& request, SharedMemory& memory)>;
 
   /// An answer may take `cpuSeconds` of a processor. Throws IOError if no process can be started.
-  explicit HelperProcess(Answer answer, int cpuSeconds = 120);
+  explicit HelperProcess(Answer answer, int cpuSeconds = 30);
   ~HelperProcess();
   HelperProcess(const HelperProcess&) = delete;
   HelperProcess& operator=(const HelperProcess&) = delete;

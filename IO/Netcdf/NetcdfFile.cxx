@@ -4,6 +4,7 @@
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
 #include "Files/RawArray.h"
+#include "Netcdf/ClassicHeader.h"
 #include "Netcdf/NetcdfLibrary.h"
 #include "Netcdf/NetcdfValues.h"
 #include "Ranks/Archive.h"
@@ -12,7 +13,8 @@
 #include <cmath>
 #include <cstring>
 #include <exception>
-#include <functional>
+#include <stdexcept>
+#include <utility>
 
 #include <unistd.h>
 
@@ -55,22 +57,26 @@ std::size_t valueBytes(const NetcdfVariable& variable)
   return isNumber(variable) ? scalarSize(*variable.Type) : 1;
 }
 
-/// Throws unless the file begins as one of NetCDF's formats does; those based on HDF5 may have
-/// other bytes before.
+/// Throws unless the file is of one of NetCDF's formats; those based on HDF5 may have other bytes
+/// before.
 void checkBeginning(const std::string& path)
 {
   const InputFile file(path);
   constexpr std::size_t size = 8;
   char begin[size] = {};
   file.read(0, begin, std::size_t(std::min<std::uint64_t>(size, file.size())));
-  const bool isClassic = std::memcmp(begin, "CDF", 3) == 0;
+  if (std::memcmp(begin, "CDF", 3) == 0)
+  {
+    checkClassicFile(file);
+    return;
+  }
   bool isHdf = false;
   for (std::uint64_t at = 0; !isHdf && at + size <= file.size(); at = at == 0 ? 512 : 2 * at)
   {
     file.read(at, begin, size);
     isHdf = std::memcmp(begin, "\211HDF\r\n\032\n", size) == 0;
   }
-  if (!isClassic && !isHdf)
+  if (!isHdf)
   {
     throw IOError(path, "is not a NetCDF file; copy it again, or check its name.");
   }

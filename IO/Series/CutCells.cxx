@@ -3,6 +3,7 @@
 
 #include "Cells/CutPolygon.h"
 #include "Files/IOError.h"
+#include "Files/TextFile.h"
 #include "Parallel/Poll.h"
 #include "Predicates/Geometry.h"
 
@@ -55,7 +56,7 @@ public:
       this->Result.LeftOut.push_back({ "cell " + std::to_string(this->FirstPoleCell),
         (this->PoleCells > 1 ? "and " + std::to_string(this->PoleCells - 1) + " more contain a pole"
                              : std::string("contains a pole")) +
-          ", which has no place in longitudes and latitudes" });
+          ", which a map of longitudes and latitudes cannot show" });
     }
     this->Result.Mesh.XY = std::move(this->Cells.XY);
     return std::move(this->Result);
@@ -72,6 +73,15 @@ private:
       throw IOError(this->Path,
         "gives node " + std::to_string((bad - xy.begin()) / 2) +
           " (from 0) no finite coordinates; correct them.");
+    }
+    for (std::size_t i = 0; this->Wrap && i < xy.size(); i += 2)
+    {
+      if (std::fabs(xy[i]) > turn || std::fabs(xy[i + 1]) > turn / 4)
+      {
+        throw IOError(this->Path,
+          "has a node at " + shortText(xy[i]) + ", " + shortText(xy[i + 1]) +
+            ", which are no longitude and latitude in degrees; leave out --wrap.");
+      }
     }
   }
 

@@ -80,7 +80,7 @@ public:
     constexpr std::uint64_t marks = 2 * sizeof(std::uint32_t);
     if (length > this->File.size() || offset + length + marks > this->File.size())
     {
-      throw IOError(this->path(), "ends before " + what + " does; copy it again.");
+      throw IOError(this->path(), "ends before the end of " + what + "; copy it again.");
     }
     if (this->lengthAt(offset) != length ||
       this->lengthAt(offset + length + sizeof(std::uint32_t)) != length)

@@ -400,8 +400,7 @@ int runInfo(const InfoArguments& arguments)
   {
     if (isModelOutput(path))
     {
-      // Cells that cross the meridian of 180 degrees do not keep a file from being described.
-      describeSeries(*openMeshSeries(path, { {}, true }));
+      describeSeries(*openMeshSeries(path));
     }
     else
     {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/SeriesReport.h"
 
+#include "Files/IOError.h"
 #include "Files/TemporaryPaths.h"
 #include "Predicates/Geometry.h"
 #include "Series/MeshSeries.h"
@@ -8,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <string>
 
 namespace tipp
@@ -15,13 +17,18 @@ namespace tipp
 namespace
 {
 
-void printBounds(const std::vector<double>& xy)
+void printMesh(const SeriesMesh& mesh)
 {
+  const auto& originals = mesh.OriginalCells;
   Box2 box = Box2::empty();
-  for (std::size_t i = 0; i < xy.size(); i += 2)
+  for (std::size_t i = 0; i < mesh.XY.size(); i += 2)
   {
-    box.extend(Point2{ xy[i], xy[i + 1] });
+    box.extend(Point2{ mesh.XY[i], mesh.XY[i + 1] });
   }
+  fmt::print("triangles   {}{}\n", mesh.Triangles.size() / 3,
+    originals.empty()
+      ? ""
+      : fmt::format(" of {} cells", 1 + *std::max_element(originals.begin(), originals.end())));
   fmt::print(
     "x           {} to {}\ny           {} to {}\n", box.Min.x, box.Max.x, box.Min.y, box.Max.y);
 }
@@ -56,14 +63,15 @@ void warnOfVariablesLeftOut(const MeshSeries& series)
 
 void describeSeries(MeshSeries& series)
 {
-  const SeriesMesh mesh = series.readMesh();
-  fmt::print("{}: {}, {} nodes, {} triangles{}\n", shownPath(series.Path), series.Kind,
-    mesh.XY.size() / 2, mesh.Triangles.size() / 3,
-    mesh.OriginalCells.empty()
-      ? ""
-      : fmt::format(" of {} cells",
-          1 + *std::max_element(mesh.OriginalCells.begin(), mesh.OriginalCells.end())));
-  printBounds(mesh.XY);
+  fmt::print("{}: {}, {} nodes\n", shownPath(series.Path), series.Kind, series.Nodes);
+  try
+  {
+    printMesh(series.readMesh());
+  }
+  catch (const IOError& error) // what it has can be told all the same
+  {
+    fmt::print("check       {}\n", error.what());
+  }
   printTimes(series);
   for (const SeriesVariable& variable : series.Variables)
   {
