@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Flat/FlatMesh.h"
 
-#include "Files/IOError.h"
 #include "Series/MeshSeries.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <memory>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -51,6 +50,7 @@ public:
     for (std::size_t c = 0; c < this->Components; ++c)
     {
       this->Series.read(this->First + c, std::size_t(step), this->Values);
+      this->mark(this->Series.Variables[this->First + c].Mark);
       if (this->Components == 1 && this->Type == Scalar::Float64)
       {
         return this->Values.data();
@@ -62,6 +62,16 @@ public:
   }
 
 private:
+  void mark(double mark)
+  {
+    if (!std::isnan(mark))
+    {
+      std::replace_if(
+        this->Values.begin(), this->Values.end(), [](double value) { return std::isnan(value); },
+        mark);
+    }
+  }
+
   template <typename T>
   void put(std::size_t component)
   {

@@ -40,6 +40,7 @@ std::unique_ptr<MeshSeries> openAdcircSeries(const std::string& path, const Seri
       values.Values.begin(), values.Values.end(), dry, std::numeric_limits<double>::quiet_NaN());
     SeriesVariable variable;
     variable.Name = nameOf(file);
+    variable.Mark = dry;
     variable.Varies = values.Times.size() > 1;
     series->addValues(file, variable, values.Components, std::move(values.Values), values.Times);
   }

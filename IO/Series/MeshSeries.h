@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -26,6 +27,9 @@ struct SeriesVariable
   /// The vector of which this is a component, if the file has vectors; their components follow each
   /// other. Empty otherwise.
   std::string Vector = {};
+  /// What stands for NaN where the values are written to other files, if the format has a mark that
+  /// its users know, such as -99999 of ADCIRC.
+  double Mark = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// A variable that a MeshSeries does not offer, or cells that are left out of its mesh.

@@ -161,7 +161,7 @@ private:
         hasEnded = true;
         continue;
       }
-      if (hasEnded || number - this->First >= this->Nodes)
+      if ((hasEnded && !this->Mesh.SkipsIncomplete) || number - this->First >= this->Nodes)
       {
         this->fail(cell,
           hasEnded ? "has a corner after a missing one; copy the file again."

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Series/SmsText.h"
+#include "Series/SmsDatasets.h"
 
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
 #include "Files/RawValues.h"
-#include "Series/SmsDatasets.h"
 
 #include <algorithm>
 #include <array>

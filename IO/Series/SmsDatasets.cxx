@@ -2,13 +2,15 @@
 #include "Series/SmsDatasets.h"
 
 #include "Files/IOError.h"
-#include "Files/InputFile.h"
-#include "Series/SmsText.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
-#include <cstring>
+#include <cstdio>
 #include <limits>
+#include <utility>
 
 namespace tipp
 {
@@ -86,16 +88,37 @@ std::vector<bool> SmsStep::activeNodes(const std::vector<bool>& activeCells) con
   return active;
 }
 
-std::vector<SmsDataset> readSmsDatasets(const std::string& path, const SmsMeshShape& shape)
+std::string smsTimeUnits(const std::string& unit, double julianDay)
 {
-  constexpr std::int32_t version = 3000; // all binary files have it
-  const InputFile file(path);
-  std::int32_t first = 0;
-  if (file.size() >= sizeof first)
+  constexpr std::array<std::pair<const char*, const char*>, 4> units = { { { "s", "seconds" },
+    { "m", "minutes" }, { "h", "hours" }, { "d", "days" } } };
+  std::string text;
+  for (const auto& [begin, name] : units)
   {
-    file.read(0, &first, sizeof first);
+    text = !unit.empty() && unit[0] == begin[0] ? name : text;
   }
-  return first == version ? readBinarySmsDatasets(path, shape) : readSmsText(path, shape);
+  constexpr double least = 1721425.5; // the first day of year 1
+  constexpr double most = 5373484.5;  // of year 10000
+  if (text.empty() || !(julianDay >= least && julianDay < most))
+  {
+    return text;
+  }
+  // Fliegel and van Flandern, 1968: the date of a Julian day.
+  const double seconds = std::round((julianDay + 0.5) * 86400);
+  const auto day = std::int64_t(std::floor(seconds / 86400));
+  const auto second = std::int64_t(seconds) - day * 86400;
+  std::int64_t l = day + 68569;
+  const std::int64_t n = 4 * l / 146097;
+  l -= (146097 * n + 3) / 4;
+  const std::int64_t i = 4000 * (l + 1) / 1461001;
+  l += 31 - 1461 * i / 4;
+  const std::int64_t j = 80 * l / 2447;
+  const std::int64_t k = j / 11;
+  std::array<char, 64> date{};
+  std::snprintf(date.data(), date.size(), " since %04d-%02d-%02d %02d:%02d:%02d",
+    int(100 * (n - 49) + i + k), int(j + 2 - 12 * k), int(l - 2447 * j / 80), int(second / 3600),
+    int(second / 60 % 60), int(second % 60));
+  return text + date.data();
 }
 
 } // namespace tipp

@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Series/SmsText.h"
+#include "Series/SmsDatasets.h"
 
 #include "Files/IOError.h"
 #include "Files/TextFile.h"
 
-#include <array>
-#include <cmath>
 #include <cstddef>
-#include <cstdio>
-#include <string_view>
 #include <utility>
 
 namespace tipp
@@ -189,39 +185,6 @@ private:
 };
 
 } // namespace
-
-std::string smsTimeUnits(const std::string& unit, double julianDay)
-{
-  constexpr std::array<std::pair<const char*, const char*>, 4> units = { { { "s", "seconds" },
-    { "m", "minutes" }, { "h", "hours" }, { "d", "days" } } };
-  std::string text;
-  for (const auto& [begin, name] : units)
-  {
-    text = !unit.empty() && unit[0] == begin[0] ? name : text;
-  }
-  constexpr double least = 1721425.5; // the first day of year 1
-  constexpr double most = 5373484.5;  // of year 10000
-  if (text.empty() || !(julianDay >= least && julianDay < most))
-  {
-    return text;
-  }
-  // Fliegel and van Flandern, 1968: the date of a Julian day.
-  const double seconds = std::round((julianDay + 0.5) * 86400);
-  const auto day = std::int64_t(std::floor(seconds / 86400));
-  const auto second = std::int64_t(seconds) - day * 86400;
-  std::int64_t l = day + 68569;
-  const std::int64_t n = 4 * l / 146097;
-  l -= (146097 * n + 3) / 4;
-  const std::int64_t i = 4000 * (l + 1) / 1461001;
-  l += 31 - 1461 * i / 4;
-  const std::int64_t j = 80 * l / 2447;
-  const std::int64_t k = j / 11;
-  std::array<char, 64> date{};
-  std::snprintf(date.data(), date.size(), " since %04d-%02d-%02d %02d:%02d:%02d",
-    int(100 * (n - 49) + i + k), int(j + 2 - 12 * k), int(l - 2447 * j / 80), int(second / 3600),
-    int(second / 60 % 60), int(second % 60));
-  return text + date.data();
-}
 
 std::vector<SmsDataset> readSmsText(const std::string& path, const SmsMeshShape& shape)
 {

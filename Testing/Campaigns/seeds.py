@@ -276,6 +276,46 @@ def adcirc():
             ).encode()
 
 
+def selafin():
+    """Output of TELEMAC: two steps of a variable, in records of Fortran."""
+    def record(data):
+        return struct.pack(">I", len(data)) + data + struct.pack(">I", len(data))
+
+    count = len(POINTS)
+    file = record(b"title".ljust(72) + b"SERAFIN ") + record(pack("i", (1, 0), ">")) + record(b"BOTTOM".ljust(32))
+    file += record(pack("i", (1, 0, 0, 0, 0, 0, 0, 0, 0, 0), ">"))
+    file += record(pack("i", (len(TRIANGLES), count, 3, 1), ">")) + record(pack("i", [i + 1 for i in flat(TRIANGLES)], ">"))
+    file += record(pack("i", range(1, count + 1), ">"))
+    file += b"".join(record(pack("f", [p[axis] for p in POINTS], ">")) for axis in (0, 1))
+    for time in (0.0, 60.0):
+        file += record(pack("f", [time], ">")) + record(pack("f", [p[2] + time for p in POINTS], ">"))
+    return file
+
+
+def netcdf():
+    """Output of ADCIRC in NetCDF's classic format: the mesh and a variable at the nodes."""
+    def text(value):
+        return struct.pack(">I", len(value)) + value.encode().ljust((len(value) + 3) // 4 * 4, b"\0")
+
+    integer, double = 4, 6
+    variables = [("x", [0], double, pack("d", [p[0] for p in POINTS], ">")),
+                 ("y", [0], double, pack("d", [p[1] for p in POINTS], ">")),
+                 ("element", [1, 2], integer, pack("i", [i + 1 for i in flat(TRIANGLES)], ">")),
+                 ("depth", [0], double, pack("d", [p[2] for p in POINTS], ">"))]
+
+    def header(begin):
+        data = b"CDF\x01" + pack("I", (0, 10, 3), ">")
+        for name, size in (("node", len(POINTS)), ("nele", len(TRIANGLES)), ("nvertex", 3)):
+            data += text(name) + struct.pack(">I", size)
+        data += pack("I", (0, 0, 11, len(variables)), ">")
+        for name, dimensions, kind, values in variables:
+            data += text(name) + pack("I", [len(dimensions), *dimensions, 0, 0, kind, len(values), begin], ">")
+            begin += len(values)
+        return data
+
+    return header(len(header(0))) + b"".join(values for _, _, _, values in variables)
+
+
 def sms():
     return ("MESH2D\n" + "".join(f"E3T {i + 1} {a + 1} {b + 1} {c + 1} 1\n" for i, (a, b, c) in enumerate(TRIANGLES)) +
             "".join(f"ND {i + 1} {x} {y} {z}\n" for i, (x, y, z) in enumerate(POINTS))).encode()
@@ -316,7 +356,8 @@ def meshes():
     files = {"ascii.vtp": vtp("ascii"), "raw.vtp": vtp("raw"), "points.ply": ply(), "points.stl": stl(), "points.obj": obj(),
              "polyhedral.vtu": vtu(POLYHEDRAL, "ascii"), "polyhedral.vtk": legacy_grid(POLYHEDRAL, False, "4.2"),
              "solids.vtu": vtu(SOLIDS, "ascii"), "solids.vtk": legacy_grid(SOLIDS, True, "4.2"), "fort.14": adcirc(),
-             "hgrid.gr3": adcirc(), "mesh.2dm": sms(), "mesh.msh": gmsh(), "points.node": nodes_of_triangle()}
+             "hgrid.gr3": adcirc(), "mesh.2dm": sms(), "mesh.msh": gmsh(), "mesh.slf": selafin(), "mesh.nc": netcdf(),
+             "points.node": nodes_of_triangle()}
     for mode in ("ascii", "base64", "zlib", "raw", "encoded"):
         files[f"{mode}.vtu"] = vtu(SURFACE, mode)
         files[f"volume-{mode}.vtu"] = vtu(VOLUME, mode)

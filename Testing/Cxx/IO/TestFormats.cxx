@@ -43,7 +43,7 @@ TEST(Formats, ListsExtensionsForMessages)
   EXPECT_EQ(tipp::listFormats(Use::WritesPieces), ".tipp");
   EXPECT_EQ(tipp::listFormats(Use::Points, " or one of VTK's"),
     ".npy, .csv, .txt, .xyz (or these as .gz, .xz or .zst), .las, .laz, .gpkg, .shp, .geojson, "
-    ".fgb, .kml, .dxf, .14, .grd, .gr3, .2dm, .msh, .node or one of VTK's");
+    ".fgb, .kml, .dxf, .14, .grd, .gr3, .2dm, .nc, .slf, .msh, .node or one of VTK's");
 }
 
 /// Every format of points has a reader: a file that is damaged, or that this build cannot read, is

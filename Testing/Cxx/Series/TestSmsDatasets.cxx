@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ExpectIOError.h"
+#include "Files/InputFile.h"
+#include "FlattenedSeries.h"
 #include "Series/MeshSeries.h"
 #include "SharedData.h"
 #include "TemporaryFolder.h"
@@ -117,6 +119,27 @@ TEST_F(SmsDatasets, InBinaryAreVectorsWithTimesAndStatus)
   series->read(x, 1, values);
   EXPECT_TRUE(std::isnan(values.at(2)));
   EXPECT_EQ(108, values.at(4));
+}
+
+TEST_F(SmsDatasets, InFlatMeshesKeepTheirStepsComponentsAndPrecision)
+{
+  const FlattenedSeries flattened(this->Mesh, { this->Folder.file("a.dat", binary()) });
+  const std::string folder = this->Folder.path("flat");
+  ASSERT_TRUE(writeFlatMesh(folder, flattened.Content));
+  const FlatMesh mesh = openFlatMesh(folder);
+  EXPECT_EQ((Doubles{ 0, 10 }), mesh.Times);
+  ASSERT_EQ(1U, mesh.PointSeries.size());
+  ASSERT_EQ(2U, mesh.PointSeries[0].size());
+  const RawArray& second = mesh.PointSeries[0][1];
+  EXPECT_EQ("velocity", second.Name);
+  EXPECT_EQ(Scalar::Float32, second.Type);
+  EXPECT_EQ(2, second.Components);
+  float last = 0;
+  InputFile(second.Path).read(second.Offset + second.bytes() - sizeof last, &last, sizeof last);
+  EXPECT_EQ(109, last);
+  ASSERT_EQ(2U, mesh.CellData.size());
+  EXPECT_EQ("OriginalCellId", mesh.CellData[0].Name);
+  EXPECT_EQ("Region", mesh.CellData[1].Name);
 }
 
 TEST_F(SmsDatasets, ThatAreDamagedOrOfAnotherMeshAreRefused)
