@@ -29,7 +29,6 @@ public:
     : Cells(std::move(cells))
     , Wrap(wrap)
     , Path(path)
-    , FileNodes(std::int64_t(this->Cells.XY.size() / 2))
   {
   }
 
@@ -37,10 +36,6 @@ public:
   {
     this->checkNodes();
     const std::int64_t count = this->Cells.cells();
-    if (count == 0 || this->FileNodes == 0)
-    {
-      throw IOError(this->Path, "has no cells or no nodes; copy it again.");
-    }
     for (std::int64_t cell = 0; cell < count; ++cell)
     {
       pollAt(cell);
@@ -262,7 +257,6 @@ private:
   CellMesh Cells;
   const bool Wrap;
   const std::string& Path;
-  const std::int64_t FileNodes;
   CutMesh Result;
   bool Changed = false;
   std::int64_t PoleCells = 0;

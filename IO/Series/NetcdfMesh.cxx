@@ -247,6 +247,10 @@ CellMesh readNetcdfMesh(NetcdfFile& file, const NetcdfMesh& mesh)
 {
   CellMesh cells;
   cells.XY = readCoordinates(file, mesh);
+  if (cells.XY.empty() || file.content().size(mesh.CellDimension) == 0)
+  {
+    throw IOError(file.path(), "has no nodes or no cells; copy it again.");
+  }
   cells.IsInDegrees = isInDegrees(mesh);
   CornerReader(file, mesh, std::int64_t(cells.XY.size() / 2)).read(cells);
   return cells;
