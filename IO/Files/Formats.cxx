@@ -59,7 +59,7 @@ constexpr std::array<Format, 35> formats = { {
   { ".nc", ".nc4 .cdf", Opener::Netcdf, Use::Points | Use::Triangles | Use::WritesSeries, "",
     "" },
   { ".slf", ".ser .sel", Opener::Selafin, Use::Points | Use::Triangles, "",
-    "output of models: the nodes; if built with NetCDF" },
+    "the nodes of models; NetCDF if it is built in" },
   { ".msh", "", Opener::Gmsh, Use::Points | Use::Triangles | Use::WritesTriangles, "",
     "Gmsh in ASCII" },
   { ".node", "", Opener::Triangle, Use::Points | Use::Triangles | Use::WritesTriangles, "",

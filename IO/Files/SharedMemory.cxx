@@ -73,7 +73,10 @@ void SharedMemory::unmap()
 
 char* SharedMemory::resize(std::size_t bytes)
 {
-  if (bytes == 0 || bytes > this->Mapped)
+  // A much smaller block returns the rest to the system.
+  constexpr std::size_t least = std::size_t(64) << 20;
+  const bool isMuchSmaller = this->Mapped > least && bytes < this->Mapped / 4;
+  if (bytes == 0 || bytes > this->Mapped || isMuchSmaller)
   {
     this->unmap();
     if (ftruncate(this->Descriptor, off_t(bytes)) != 0)

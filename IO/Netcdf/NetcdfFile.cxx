@@ -4,6 +4,7 @@
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
 #include "Files/RawArray.h"
+#include "Files/TextFile.h"
 #include "Netcdf/ClassicHeader.h"
 #include "Netcdf/NetcdfLibrary.h"
 #include "Netcdf/NetcdfValues.h"
@@ -188,6 +189,15 @@ std::size_t NetcdfFile::checkPart(const NetcdfVariable& variable, const NetcdfPa
   return std::size_t(values);
 }
 
+std::size_t NetcdfFile::requireNumbers(const NetcdfVariable& variable, const NetcdfPart& part) const
+{
+  if (!isNumber(variable))
+  {
+    throw IOError(this->Path, "has '" + variable.Name + "' as text; it should be numbers.");
+  }
+  return this->checkPart(variable, part);
+}
+
 const char* NetcdfFile::fetch(
   const NetcdfVariable& variable, const NetcdfPart& part, std::size_t bytes)
 {
@@ -233,12 +243,8 @@ const char* NetcdfFile::fetch(
 void NetcdfFile::read(const NetcdfVariable& variable, const std::vector<std::int64_t>& start,
   const std::vector<std::int64_t>& count, std::vector<double>& values)
 {
-  if (!isNumber(variable))
-  {
-    throw IOError(this->Path, "has '" + variable.Name + "' as text; it should be numbers.");
-  }
   const NetcdfPart part{ variable.Id, start, count };
-  const std::size_t size = this->checkPart(variable, part);
+  const std::size_t size = this->requireNumbers(variable, part);
   values.resize(size);
   if (size > 0)
   {
@@ -258,21 +264,30 @@ std::vector<double> NetcdfFile::read(const NetcdfVariable& variable)
 std::vector<std::int64_t> NetcdfFile::readIntegers(const NetcdfVariable& variable)
 {
   constexpr double most = 9007199254740992; // 2^53: larger ones are not exact as doubles
-  const std::vector<double> values = this->read(variable);
-  std::vector<std::int64_t> integers(values.size(), Missing);
-  for (std::size_t i = 0; i < values.size(); ++i)
+  constexpr std::size_t block = 4096;
+  const std::vector<std::int64_t> shape = this->Content.shape(variable);
+  const NetcdfPart part{ variable.Id, std::vector<std::int64_t>(shape.size(), 0), shape };
+  const std::size_t size = this->requireNumbers(variable, part);
+  std::vector<std::int64_t> integers(size, Missing);
+  std::vector<double> values(std::min(block, size));
+  const char* const stored =
+    size > 0 ? this->fetch(variable, part, size * valueBytes(variable)) : nullptr;
+  const NetcdfPacking packing = packingOf(variable);
+  for (std::size_t begin = 0; begin < size; begin += block)
   {
-    if (std::isnan(values[i]))
+    const std::size_t count = std::min(block, size - begin);
+    unpackValues(packing, stored + begin * valueBytes(variable), count, values.data());
+    for (std::size_t i = 0; i < count; ++i)
     {
-      continue;
+      const double value = values[i];
+      if (std::fabs(value) > most || std::floor(value) < value)
+      {
+        throw IOError(this->Path,
+          "has in '" + variable.Name + "', which should be integers, the value " +
+            shortText(value) + "; copy the file again.");
+      }
+      integers[begin + i] = std::isnan(value) ? Missing : std::int64_t(value);
     }
-    if (std::fabs(values[i]) > most || std::floor(values[i]) != values[i])
-    {
-      throw IOError(this->Path,
-        "has in '" + variable.Name + "', which should be integers, the value " +
-          std::to_string(values[i]) + "; copy the file again.");
-    }
-    integers[i] = std::int64_t(values[i]);
   }
   return integers;
 }

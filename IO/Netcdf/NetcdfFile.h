@@ -51,7 +51,12 @@ public:
 private:
   /// The values of a part, in their type, until the next call.
   const char* fetch(const NetcdfVariable& variable, const NetcdfPart& part, std::size_t bytes);
+  /// Return the number of values in a part. Throw IOError if the memory cannot hold them or, in the
+  /// second case, if they are no numbers.
+  ///@{
   std::size_t checkPart(const NetcdfVariable& variable, const NetcdfPart& part) const;
+  std::size_t requireNumbers(const NetcdfVariable& variable, const NetcdfPart& part) const;
+  ///@}
   std::string receive(const std::string& what);
   void start();
 
