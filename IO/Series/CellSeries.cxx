@@ -58,13 +58,18 @@ SeriesMesh CellSeries::readMesh()
   return mesh;
 }
 
+std::vector<double> CellSeries::readNodes()
+{
+  return this->Wrap ? this->readMesh().XY : this->readCells().XY;
+}
+
 void CellSeries::read(std::size_t variable, std::size_t step, std::vector<double>& values)
 {
-  if (!this->IsPrepared)
-  {
-    this->prepare();
-  }
   const SeriesVariable& described = this->Variables.at(variable);
+  if (!this->IsPrepared && described.OnCells)
+  {
+    this->prepare(); // which triangles are parts of which cells
+  }
   this->readStored(variable, described.Varies ? step : 0, values);
   const std::int64_t expected = described.OnCells ? this->FileCells : this->FileNodes;
   if (std::int64_t(values.size()) != expected)

@@ -19,6 +19,7 @@ class CellSeries : public MeshSeries
 {
 public:
   SeriesMesh readMesh() final;
+  std::vector<double> readNodes() final;
   void read(std::size_t variable, std::size_t step, std::vector<double>& values) final;
 
 protected:

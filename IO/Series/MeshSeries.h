@@ -58,6 +58,10 @@ public:
   /// Reads the mesh. Throws IOError.
   virtual SeriesMesh readMesh() = 0;
 
+  /// Reads x and y of the nodes alone, interleaved, also where cells could not be cut. Throws
+  /// IOError.
+  virtual std::vector<double> readNodes() { return this->readMesh().XY; }
+
   /// Reads a variable's values at a time step: one per node, or per triangle of readMesh(). NaN
   /// where the model has no value: at dry nodes, and where the file has its fill value. `step` is
   /// ignored if the variable does not vary. Throws IOError.

@@ -10,11 +10,15 @@ namespace tipp
 ModelMesh readSeriesMesh(const std::string& path, ModelPart part)
 {
   const std::unique_ptr<MeshSeries> series = openMeshSeries(path);
-  SeriesMesh read = series->readMesh();
   ModelMesh mesh;
-  mesh.XY = std::move(read.XY);
-  if (part == ModelPart::Triangles)
+  if (part == ModelPart::Nodes)
   {
+    mesh.XY = series->readNodes();
+  }
+  else
+  {
+    SeriesMesh read = series->readMesh();
+    mesh.XY = std::move(read.XY);
     mesh.Triangles = std::move(read.Triangles);
     mesh.OriginalCells = std::move(read.OriginalCells);
   }

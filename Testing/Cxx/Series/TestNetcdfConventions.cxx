@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ExpectIOError.h"
+#include "Models/ModelMesh.h"
 #include "NetcdfWriter.h"
 #include "Series/MeshSeries.h"
 #include "TemporaryFolder.h"
@@ -395,6 +396,30 @@ TEST_F(NetcdfConventions, MpasIsReadAsPolygonsOrAsItsDualMesh)
     EXPECT_EQ(hasPolygons ? (Ids{ 0, 0, 1 }) : (Ids{ 0, 2 }), mesh.OriginalCells);
     EXPECT_NEAR(0.4, mesh.XY.at(8), 1e-12);
   }
+}
+
+TEST_F(NetcdfConventions, NodesAreReadAsPointsWhateverTheCells)
+{
+  NetcdfWriter w(this->path("fort.63.nc"));
+  const int nodes = w.dimension("node", 3);
+  const int elements = w.dimension("nele", 1);
+  const int three = w.dimension("nvertex", 3);
+  const int x = w.variable("x", NC_DOUBLE, { nodes });
+  w.text(x, "units", "degrees_east");
+  const int y = w.variable("y", NC_DOUBLE, { nodes });
+  const int element = w.variable("element", NC_INT, { elements, three });
+  const int depth = w.variable("depth", NC_DOUBLE, { nodes });
+  w.put(x, { 179, -179, -178 });
+  w.put(y, { 0, 0, 1 });
+  w.put(element, { 1, 2, 3 });
+  w.put(depth, { 7, 8, 9 });
+  const std::string path = w.close();
+  expectIOError(path, "give --wrap", [&] { readModelMesh(path, ModelPart::Triangles); });
+  const ModelMesh mesh = readModelMesh(path, ModelPart::Nodes);
+  EXPECT_EQ((Doubles{ 179, 0, -179, 0, -178, 1 }), mesh.XY);
+  ASSERT_EQ(1U, mesh.Columns.size());
+  EXPECT_EQ("depth", mesh.Columns[0].Name);
+  EXPECT_EQ((Doubles{ 7, 8, 9 }), mesh.Columns[0].Values);
 }
 
 TEST_F(NetcdfConventions, CornersThatAreNoNodesAreNamed)
