@@ -13,9 +13,9 @@ namespace
 {
 
 /// Returns the file's dimension of nodes or cells: by its name or, in a file without the mesh that
-/// has no such name, by its size. -1 if there is none.
-int findAlike(const std::string& path, const NetcdfContent& content, const std::string& name,
-  std::int64_t size, const std::string& what)
+/// has no such name, by its size, if it is not that of time. -1 if there is none.
+int findAlike(const std::string& path, const NetcdfContent& content, int time,
+  const std::string& name, std::int64_t size, const std::string& what)
 {
   const int named = content.findDimension(name);
   if (named >= 0 && content.size(named) != size)
@@ -25,7 +25,8 @@ int findAlike(const std::string& path, const NetcdfContent& content, const std::
         "', but the mesh has " + std::to_string(size) + "; name the mesh that it belongs to.");
   }
   const auto alike = std::find_if(content.Dimensions.begin(), content.Dimensions.end(),
-    [size](const NetcdfDimension& dimension) { return dimension.Size == size; });
+    [&](const NetcdfDimension& dimension)
+    { return dimension.Size == size && &dimension - content.Dimensions.data() != time; });
   return named >= 0                     ? named
     : alike == content.Dimensions.end() ? -1
                                         : int(alike - content.Dimensions.begin());
@@ -38,11 +39,11 @@ public:
     : Content(content)
     , Context(context)
     , Node(context.HasMesh ? context.Mesh->NodeDimension
-                           : findAlike(path, content, context.Dimensions.NodeName,
-                               context.Dimensions.Nodes, "nodes"))
+                           : findAlike(path, content, context.TimeDimension,
+                               context.Dimensions.NodeName, context.Dimensions.Nodes, "nodes"))
     , Cell(context.HasMesh ? context.Mesh->CellDimension
-                           : findAlike(path, content, context.Dimensions.CellName,
-                               context.Dimensions.Cells, "cells"))
+                           : findAlike(path, content, context.TimeDimension,
+                               context.Dimensions.CellName, context.Dimensions.Cells, "cells"))
   {
   }
 
