@@ -129,15 +129,6 @@ void limitMemory()
   }
 }
 
-/// Lets the system end this process after so much work, or never for 0. Waiting for a slow disk
-/// does not count.
-void limitWork(int seconds)
-{
-  itimerval timer{};
-  timer.it_value.tv_sec = seconds;
-  setitimer(ITIMER_PROF, &timer, nullptr);
-}
-
 std::string answerOf(
   const HelperProcess::Answer& answer, const std::string& request, SharedMemory& memory)
 {
@@ -230,6 +221,15 @@ void HelperProcess::run(const Answer& answer, int cpuSeconds, int parentSocket)
     _exit(1);
   }
   _exit(0); // skips this process' own clean-up
+}
+
+/// The system ends this process after so much work, or never for 0. Waiting for a slow disk does
+/// not count.
+void HelperProcess::limitWork(int cpuSeconds)
+{
+  itimerval timer{};
+  timer.it_value.tv_sec = cpuSeconds;
+  setitimer(ITIMER_PROF, &timer, nullptr);
 }
 
 void HelperProcess::send(const std::string& request)

@@ -33,7 +33,7 @@ public:
   using Answer = std::function<std::string(const std::string& request, SharedMemory& memory)>;
 
   /// An answer may take `cpuSeconds` of a processor. Throws IOError if no process can be started.
-  explicit HelperProcess(Answer answer, int cpuSeconds = 30);
+  explicit HelperProcess(Answer answer, int cpuSeconds = 15);
   ~HelperProcess();
   HelperProcess(const HelperProcess&) = delete;
   HelperProcess& operator=(const HelperProcess&) = delete;
@@ -43,6 +43,8 @@ public:
   /// Waits for the answer to the oldest request that has none, and returns it. Calls poll(). Throws
   /// IOError, HelperEnded.
   std::string receive();
+  /// For an Answer: allows it so much work from now on.
+  static void limitWork(int cpuSeconds);
   std::string ask(const std::string& request)
   {
     this->send(request);

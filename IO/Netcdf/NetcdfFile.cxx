@@ -43,6 +43,8 @@ HelperProcess::Answer answerer(const std::string& path)
     NetcdfPart part;
     std::uint64_t bytes = 0;
     archive(part, bytes);
+    // Where chunks hold all steps of a few nodes, a step is all of the file decompressed.
+    HelperProcess::limitWork(600);
     library->read(part, memory.resize(std::size_t(bytes)));
     return {};
   };
