@@ -5,7 +5,7 @@
 #include "Files/IOError.h"
 #include "Files/TextFile.h"
 #include "Flat/FlatMesh.h"
-#include "Series/FlatSeries.h"
+#include "Flat/FlatSeries.h"
 
 #include <algorithm>
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Series/FlatSeries.h"
+#include "Flat/FlatSeries.h"
 
 #include "Files/IOError.h"
 #include "Files/RawValues.h"
