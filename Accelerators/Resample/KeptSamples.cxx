@@ -1,17 +1,96 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Resample/KeptSamples.h"
 
-#include "Parallel/Instructions.h"
 #include "Resample/ClaimSamples.h"
 #include "Resample/Lanes.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <type_traits>
 
 namespace tipp
 {
+namespace
+{
+
+constexpr float noValue = std::numeric_limits<float>::quiet_NaN();
+
+/// Numbers the triangles of a tile in the order in which they are met: a hash table that is emptied
+/// in no time.
+class TileCells
+{
+public:
+  void clear()
+  {
+    ++this->Round;
+    this->Cells.clear();
+  }
+
+  std::size_t numberOf(std::int32_t cell)
+  {
+    for (std::uint32_t at = std::uint32_t(cell) * 2654435769U >> Shift;; at = (at + 1) % Size)
+    {
+      Entry& entry = this->Entries[at];
+      if (entry.Round != this->Round)
+      {
+        entry = { this->Round, cell, std::int32_t(this->Cells.size()) };
+        this->Cells.push_back(cell);
+      }
+      if (entry.Cell == cell)
+      {
+        return std::size_t(entry.Number);
+      }
+    }
+  }
+
+  const std::vector<std::int32_t>& cells() const { return this->Cells; }
+
+private:
+  struct Entry
+  {
+    std::int64_t Round = 0;
+    std::int32_t Cell = 0;
+    std::int32_t Number = 0;
+  };
+  static constexpr std::uint32_t Shift = 32 - 12;
+  static constexpr std::uint32_t Size = 1 << 12; // four times the samples of a tile
+
+  std::int64_t Round = 0;
+  std::vector<Entry> Entries = std::vector<Entry>(Size);
+  std::vector<std::int32_t> Cells;
+};
+
+/// Returns the weights of the second and third corner, in the order of a group of triangles, of the
+/// one in a lane at a position.
+template <typename Access>
+std::array<double, 2> weightsAt(const GroupLanes<Access>& group, int lane, double u, double v)
+{
+  const double offset[2] = { u - group.Corners[0][0][lane], v - group.Corners[0][1][lane] };
+  double weights[2];
+  if (group.Thin[lane] != 0)
+  {
+    double edges[2][2];
+    for (int i = 0; i < 2; ++i)
+    {
+      for (int axis = 0; axis < 2; ++axis)
+      {
+        edges[i][axis] = group.Corners[i + 1][axis][lane] - group.Corners[0][axis][lane];
+      }
+    }
+    thinWeights(edges, offset, weights);
+    return { weights[0], weights[1] };
+  }
+  for (int i = 0; i < 2; ++i)
+  {
+    weights[i] = group.Normals[i][0][lane] * offset[0] + group.Normals[i][1][lane] * offset[1];
+  }
+  return { weights[0], weights[1] };
+}
+
+} // namespace
 
 /// Makes the strips from claims.
 class KeptSamples::Builder
@@ -27,7 +106,7 @@ public:
 
   bool run(int threads, const Report& report)
   {
-    std::vector<SlotMap> maps{ std::size_t(threads) };
+    std::vector<TileCells> cells{ std::size_t(threads) };
     std::atomic<std::int64_t> inside{ 0 };
     bool completed = false;
     withAccess(this->Mesh,
@@ -37,7 +116,7 @@ public:
         {
           completed = forChunks(std::int64_t(this->Kept.Strips.size()), 1, threads, report,
             [&](std::int64_t strip, std::int64_t, int thread)
-            { inside += this->fillStrip(access, strip, maps[std::size_t(thread)]); });
+            { inside += this->fillStrip(access, strip, cells[std::size_t(thread)]); });
         }
       });
     this->Kept.Inside = inside;
@@ -45,71 +124,23 @@ public:
   }
 
 private:
-  /// Gives the triangles of a tile their slots: a hash table that is emptied in no time.
-  class SlotMap
-  {
-  public:
-    void clear()
-    {
-      ++this->Round;
-      this->Cells.clear();
-    }
-
-    int slotOf(std::int32_t cell)
-    {
-      for (std::uint32_t at = std::uint32_t(cell) * 2654435769U >> Shift;; at = (at + 1) % Size)
-      {
-        Entry& entry = this->Entries[at];
-        if (entry.Round != this->Round)
-        {
-          entry = { this->Round, cell, std::int32_t(this->Cells.size()) };
-          this->Cells.push_back(cell);
-        }
-        if (entry.Cell == cell)
-        {
-          return entry.Slot;
-        }
-      }
-    }
-
-    /// The triangles in the order of their slots.
-    const std::vector<std::int32_t>& cells() const { return this->Cells; }
-
-  private:
-    struct Entry
-    {
-      std::int64_t Round = 0;
-      std::int32_t Cell = 0;
-      std::int32_t Slot = 0;
-    };
-    static constexpr std::uint32_t Shift = 32 - 12;
-    static constexpr std::uint32_t Size = 1 << 12; // four times the samples of a tile
-
-    std::int64_t Round = 0;
-    std::vector<Entry> Entries = std::vector<Entry>(Size);
-    std::vector<std::int32_t> Cells;
-  };
-
   /// Returns the number of samples in triangles.
   template <typename Access>
-  std::int64_t fillStrip(const Access& access, std::int64_t index, SlotMap& map)
+  std::int64_t fillStrip(const Access& access, std::int64_t index, TileCells& cells)
   {
     Strip& strip = this->Kept.Strips[std::size_t(index)];
     std::int64_t inside = 0;
     const std::int64_t last = std::min((index + 1) * StripTiles, this->Kept.tileCount());
     for (std::int64_t tile = index * StripTiles; tile < last; ++tile)
     {
-      inside += this->addTile(access, this->Kept.boxOf(tile), strip, map);
+      inside += this->addTile(access, this->Kept.boxOf(tile), strip, cells);
     }
-    strip.Special.shrink_to_fit();
-    strip.Numbers.shrink_to_fit();
-    strip.Ids.shrink_to_fit();
-    std::sort(strip.Special.begin(), strip.Special.end(),
-      [](const Weighted& a, const Weighted& b) { return a.Sample < b.Sample; });
+    strip.Slots.shrink_to_fit();
+    strip.Samples.shrink_to_fit();
     return inside;
   }
 
-  /// The claim of the mesh's border that has a sample; null if there is none.
+  /// The claim near the mesh's border that has a sample; null if there is none.
   const NearSample* nearAt(std::int64_t sample) const
   {
     const auto found = std::lower_bound(this->Found.Near.begin(), this->Found.Near.end(), sample,
@@ -118,45 +149,54 @@ private:
   }
 
   template <typename Access>
-  std::int64_t addTile(const Access& access, const TileBox& box, Strip& strip, SlotMap& map)
+  std::int64_t addTile(const Access& access, const TileBox& box, Strip& strip, TileCells& cells)
   {
-    map.clear();
-    constexpr std::uint16_t outside = 0xFFFF;
-    const std::size_t first = strip.SlotOfSample.size();
+    cells.clear();
+    const std::size_t first = strip.Samples.size();
     std::int64_t inside = 0;
-    for (std::int64_t row = box.Row; row < box.Row + box.Rows; ++row)
-    {
-      const std::int64_t start = row * this->Kept.Width + box.Column;
-      for (std::int64_t sample = start; sample < start + box.Columns; ++sample)
+    this->forSamples(box,
+      [&](std::int64_t sample, int, int)
       {
         const std::int32_t cell = this->Found.Cells[std::size_t(sample)];
-        strip.SlotOfSample.push_back(cell < 0 ? outside : std::uint16_t(map.slotOf(cell)));
+        strip.Samples.push_back(
+          { cell < 0 ? 0 : std::uint32_t(cells.numberOf(cell)), noValue, noValue });
         inside += cell >= 0;
-      }
+      });
+    std::vector<GroupLanes<Access>> groups;
+    strip.FirstSlots.push_back(strip.Slots.size());
+    this->addSlots(access, cells.cells(), groups, strip);
+    KeptSample* to = strip.Samples.data() + first;
+    this->forSamples(box,
+      [&](std::int64_t sample, int column, int row)
+      {
+        if (this->Found.Cells[std::size_t(sample)] >= 0)
+        {
+          const int slot = int(to->Slot);
+          const auto [second, third] = weightsAt(groups[std::size_t(slot / laneCount)],
+            slot % laneCount, this->Axes.U[column], this->Axes.V[row]);
+          *to = { to->Slot, float(second), float(third) };
+        }
+        if (const NearSample* const near = this->nearAt(sample))
+        {
+          *to = { std::uint32_t(strip.Slots.size() - strip.FirstSlots.back()), float(near->Weight),
+            0 };
+          const auto begin = std::int32_t(near->Ids[0]);
+          strip.Slots.push_back({ { begin, std::int32_t(near->Ids[1]), begin }, near->Cell });
+        }
+        ++to;
+      });
+    if (strip.Slots.size() == strip.FirstSlots.back())
+    {
+      strip.Slots.push_back({}); // for the samples outside, whose weights are NaN
     }
-    const auto triangles = std::int32_t(map.cells().size());
-    const Tile tile{ triangles, (triangles + laneCount) / laneCount * laneCount,
-      strip.Numbers.size(), strip.Ids.size() };
-    std::vector<unsigned char> thin;
-    this->addSlots(access, map.cells(), tile, strip, thin);
-    this->addSpecial(access, box, map.cells(), thin, first, strip);
-    std::replace(strip.SlotOfSample.begin() + std::ptrdiff_t(first), strip.SlotOfSample.end(),
-      outside, std::uint16_t(triangles));
-    strip.Tiles.push_back(tile);
     return inside;
   }
 
-  /// Sets `thin` for the slots whose samples need weights.
+  /// Adds the triangles of a tile. Sets `groups`, four triangles each.
   template <typename Access>
-  void addSlots(const Access& access, const std::vector<std::int32_t>& cells, const Tile& tile,
-    Strip& strip, std::vector<unsigned char>& thin)
+  void addSlots(const Access& access, const std::vector<std::int32_t>& cells,
+    std::vector<GroupLanes<Access>>& groups, Strip& strip) const
   {
-    const auto slots = std::size_t(tile.Slots);
-    strip.Numbers.resize(tile.FirstNumber + 6 * slots);
-    strip.Ids.resize(tile.FirstId + 4 * slots);
-    thin.resize(slots);
-    double* const numbers = strip.Numbers.data() + tile.FirstNumber;
-    std::int32_t* const ids = strip.Ids.data() + tile.FirstId;
     for (std::size_t slot = 0; slot < cells.size(); slot += laneCount)
     {
       std::int32_t four[laneCount];
@@ -164,79 +204,30 @@ private:
       {
         four[lane] = cells[std::min(slot + lane, cells.size() - 1)];
       }
-      GroupLanes<Access> group;
+      GroupLanes<Access>& group = groups.emplace_back();
       group.set(access, four);
-      for (std::size_t lane = 0; lane < laneCount; ++lane)
+      for (std::size_t lane = 0; lane < std::min<std::size_t>(laneCount, cells.size() - slot);
+           ++lane)
       {
-        const std::size_t at = slot + lane;
-        for (std::size_t i = 0; i < 2; ++i)
-        {
-          numbers[(2 * i) * slots + at] = group.Normals[i][0][lane];
-          numbers[(2 * i + 1) * slots + at] = group.Normals[i][1][lane];
-          numbers[(4 + i) * slots + at] = group.Corners[0][i][lane];
-        }
-        for (std::size_t corner = 0; corner < 3; ++corner)
-        {
-          ids[corner * slots + at] = std::int32_t(group.Ids[corner][lane]);
-        }
-        ids[3 * slots + at] = four[lane];
-        thin[at] = group.Thin[lane] != 0;
+        strip.Slots.push_back(
+          { { std::int32_t(group.Ids[0][lane]), std::int32_t(group.Ids[1][lane]),
+              std::int32_t(group.Ids[2][lane]) },
+            four[lane] });
       }
     }
   }
 
-  /// Adds the samples of thin triangles, and those near the mesh's border.
-  template <typename Access>
-  void addSpecial(const Access& access, const TileBox& box, const std::vector<std::int32_t>& cells,
-    const std::vector<unsigned char>& thin, std::size_t first, Strip& strip)
+  /// Calls work(sample, column, row) for all samples of a tile.
+  template <typename Work>
+  void forSamples(const TileBox& box, const Work& work) const
   {
-    for (std::int64_t i = 0; i < box.Rows * box.Columns; ++i)
+    for (std::int64_t row = box.Row; row < box.Row + box.Rows; ++row)
     {
-      const std::size_t slot = strip.SlotOfSample[first + std::size_t(i)];
-      if (slot >= cells.size())
+      for (std::int64_t column = box.Column; column < box.Column + box.Columns; ++column)
       {
-        continue;
-      }
-      const std::int64_t row = box.Row + i / box.Columns;
-      const std::int64_t column = box.Column + i % box.Columns;
-      const std::int64_t sample = row * this->Kept.Width + column;
-      if (const NearSample* const near = this->nearAt(sample))
-      {
-        const auto begin = std::int32_t(near->Ids[0]);
-        strip.Special.push_back({ sample, { begin, std::int32_t(near->Ids[1]), begin }, near->Cell,
-          { near->Weight, 0 } });
-      }
-      else if (thin[slot] != 0)
-      {
-        strip.Special.push_back(this->weighted(access, cells[slot], row, column));
+        work(row * this->Kept.Width + column, int(column), int(row));
       }
     }
-  }
-
-  template <typename Access>
-  Weighted weighted(
-    const Access& access, std::int32_t cell, std::int64_t row, std::int64_t column) const
-  {
-    const std::int32_t four[laneCount] = { cell, cell, cell, cell };
-    GroupLanes<Access> group;
-    group.set(access, four);
-    double edges[2][2];
-    for (int i = 0; i < 2; ++i)
-    {
-      for (int axis = 0; axis < 2; ++axis)
-      {
-        edges[i][axis] = group.Corners[i + 1][axis][0] - group.Corners[0][axis][0];
-      }
-    }
-    const double offset[2] = { this->Axes.U[int(column)] - group.Corners[0][0][0],
-      this->Axes.V[int(row)] - group.Corners[0][1][0] };
-    Weighted weighted{ row * this->Kept.Width + column, {}, cell, {} };
-    thinWeights(edges, offset, weighted.Weights);
-    for (int corner = 0; corner < 3; ++corner)
-    {
-      weighted.Ids[corner] = std::int32_t(group.Ids[corner][0]);
-    }
-    return weighted;
   }
 
   KeptSamples& Kept;
@@ -267,8 +258,6 @@ std::optional<KeptSamples> KeptSamples::find(
   kept.Height = axes.V.size();
   kept.TilesAcross = (kept.Width + TileColumns - 1) / TileColumns;
   kept.TilesDown = (kept.Height + TileRows - 1) / TileRows;
-  kept.U.assign(axes.U.data(), axes.U.data() + kept.Width);
-  kept.V.assign(axes.V.data(), axes.V.data() + kept.Height);
   kept.Strips.resize(std::size_t((kept.tileCount() + StripTiles - 1) / StripTiles));
   if (!Builder(kept, mesh, axes, claims).run(threads, partOf(report, 0.8, 1)))
   {
@@ -280,261 +269,100 @@ std::optional<KeptSamples> KeptSamples::find(
 std::size_t KeptSamples::bytes() const
 {
   const auto size = [](const auto& values) { return values.capacity() * sizeof(values[0]); };
-  std::size_t sum = size(this->U) + size(this->V);
+  std::size_t sum = 0;
   for (const Strip& strip : this->Strips)
   {
-    sum += size(strip.Tiles) + size(strip.SlotOfSample) + size(strip.Numbers) + size(strip.Ids) +
-      size(strip.Special);
+    sum += size(strip.FirstSlots) + size(strip.Slots) + size(strip.Samples);
   }
   return sum;
 }
 
-/// Interpolates one field.
-template <typename Value, typename Sample>
-class KeptSamples::Evaluation
+template <typename Work>
+void KeptSamples::forTiles(int threads, const Work& work) const
 {
-public:
-  Evaluation(const KeptSamples& kept, const Value* values, Sample* samples, Sample null, int stride)
-    : Kept(kept)
-    , Values(values)
-    , Samples(samples)
-    , Null(null)
-    , Stride(stride)
-  {
-  }
-
-  /// The ground at the samples, for waterLevel().
-  const Sample* Ground = nullptr;
-
-  /// Calls work(tile, box, strip, slots), where `slots` are the tile's SlotOfSample, for all tiles,
-  /// and then special(sample) for all special samples.
-  template <typename Work, typename Special>
-  void forTiles(int threads, const Work& work, const Special& special) const
-  {
-    forChunks(std::int64_t(this->Kept.Strips.size()), 1, threads, {},
-      [&](std::int64_t index, std::int64_t, int)
-      {
-        const Strip& strip = this->Kept.Strips[std::size_t(index)];
-        const std::uint16_t* slots = strip.SlotOfSample.data();
-        for (std::size_t i = 0; i < strip.Tiles.size(); ++i)
-        {
-          const TileBox box = this->Kept.boxOf(index * StripTiles + std::int64_t(i));
-          work(strip.Tiles[i], box, strip, slots);
-          slots += box.Rows * box.Columns;
-        }
-        for (const Weighted& weighted : strip.Special)
-        {
-          special(weighted);
-        }
-      });
-  }
-
-  void interpolate(int threads) const
-  {
-    this->forTiles(
-      threads,
-      [this](const Tile& tile, const TileBox& box, const Strip& strip, const std::uint16_t* slots)
-      { runWith(Instructions::Best, [&] { this->interpolateTile(tile, box, strip, slots); }); },
-      [this](const Weighted& weighted) { this->interpolateWeighted(weighted); });
-  }
-
-  void take(int threads) const
-  {
-    this->forTiles(
-      threads,
-      [this](const Tile& tile, const TileBox& box, const Strip& strip, const std::uint16_t* slots)
-      {
-        const std::int32_t* const cells = strip.Ids.data() + tile.FirstId + 3 * tile.Slots;
-        this->forSamples(box,
-          [&](std::int64_t i, std::int64_t sample)
-          {
-            const int slot = slots[i];
-            this->Samples[sample * this->Stride] = slot < tile.Triangles
-              ? Sample(this->Values[std::int64_t(cells[slot]) * this->Stride])
-              : this->Null;
-          });
-      },
-      [this](const Weighted& weighted)
-      {
-        this->Samples[weighted.Sample * this->Stride] =
-          Sample(this->Values[std::int64_t(weighted.Cell) * this->Stride]);
-      });
-  }
-
-private:
-  /// The most slots of a tile: one per sample, one for samples outside, and the rest of a group.
-  static constexpr std::size_t MostSlots = TileRows * TileColumns + laneCount;
-
-  /// The field as linear functions in the slots' triangles.
-  struct Gradients
-  {
-    double First[MostSlots]; ///< the value at the first corner
-    double AlongU[MostSlots];
-    double AlongV[MostSlots];
-    bool PartlyDry[MostSlots]; ///< only with Ground
-  };
-
-  /// Calls work(i, sample) for all samples of a tile; i counts them.
-  template <typename Work>
-  void forSamples(const TileBox& box, const Work& work) const
-  {
-    std::int64_t i = 0;
-    for (std::int64_t row = box.Row; row < box.Row + box.Rows; ++row)
+  forChunks(std::int64_t(this->Strips.size()), 1, threads, {},
+    [&](std::int64_t index, std::int64_t, int)
     {
-      const std::int64_t first = row * this->Kept.Width + box.Column;
-      for (std::int64_t sample = first; sample < first + box.Columns; ++sample, ++i)
+      const Strip& strip = this->Strips[std::size_t(index)];
+      const KeptSample* samples = strip.Samples.data();
+      for (std::size_t i = 0; i < strip.FirstSlots.size(); ++i)
       {
-        work(i, sample);
+        const TileBox box = this->boxOf(index * StripTiles + std::int64_t(i));
+        work(box, strip.Slots.data() + strip.FirstSlots[i], samples);
+        samples += box.Rows * box.Columns;
       }
-    }
-  }
-
-  double valueAt(std::int32_t id) const
-  {
-    return double(this->Values[std::int64_t(id) * this->Stride]);
-  }
-
-  [[gnu::always_inline]] void interpolateTile(
-    const Tile& tile, const TileBox& box, const Strip& strip, const std::uint16_t* slots) const
-  {
-    alignas(32) Gradients gradients;
-    const double* const numbers = strip.Numbers.data() + tile.FirstNumber;
-    const std::int32_t* const ids = strip.Ids.data() + tile.FirstId;
-    const bool isWet = this->findGradients(tile, numbers, ids, gradients);
-    const double* const firstU = numbers + 4 * tile.Slots;
-    const double* const firstV = numbers + 5 * tile.Slots;
-    for (std::int64_t row = 0; row < box.Rows; ++row)
-    {
-      const double v = this->Kept.V[std::size_t(box.Row + row)];
-      const double* const u = this->Kept.U.data() + box.Column;
-      const std::uint16_t* const of = slots + row * box.Columns;
-      Sample* const samples =
-        this->Samples + ((box.Row + row) * this->Kept.Width + box.Column) * this->Stride;
-      for (std::int64_t i = 0; i < box.Columns; ++i)
-      {
-        const int slot = of[i];
-        const double onRow = gradients.First[slot] + gradients.AlongV[slot] * (v - firstV[slot]);
-        samples[i * this->Stride] = Sample(onRow + gradients.AlongU[slot] * (u[i] - firstU[slot]));
-      }
-    }
-    if (this->Ground && !isWet)
-    {
-      this->forSamples(box,
-        [&](std::int64_t i, std::int64_t sample)
-        { this->dryAbove(sample, gradients.PartlyDry[slots[i]]); });
-    }
-  }
-
-  /// Makes a sample dry where the water is not above the ground.
-  void dryAbove(std::int64_t sample, bool isPartlyDry) const
-  {
-    Sample& level = this->Samples[sample];
-    level = isPartlyDry && !(level > this->Ground[sample]) ? Sample(NAN) : level;
-  }
-
-  /// Returns whether no triangle is partly dry.
-  [[gnu::always_inline]] bool findGradients(
-    const Tile& tile, const double* numbers, const std::int32_t* ids, Gradients& gradients) const
-  {
-    const int slots = tile.Slots;
-    bool isWet = true;
-    for (int slot = 0; slot < slots; ++slot)
-    {
-      double value[3] = { this->valueAt(ids[slot]), this->valueAt(ids[slots + slot]),
-        this->valueAt(ids[2 * slots + slot]) };
-      if (this->Ground)
-      {
-        gradients.PartlyDry[slot] = fillDry(value);
-        isWet &= !gradients.PartlyDry[slot];
-      }
-      const double second = value[1] - value[0];
-      const double third = value[2] - value[0];
-      gradients.First[slot] = value[0];
-      gradients.AlongU[slot] = numbers[slot] * second + numbers[2 * slots + slot] * third;
-      gradients.AlongV[slot] = numbers[slots + slot] * second + numbers[3 * slots + slot] * third;
-    }
-    for (int slot = tile.Triangles; slot < slots; ++slot)
-    {
-      gradients.First[slot] = double(this->Null);
-      gradients.AlongU[slot] = 0;
-      gradients.AlongV[slot] = 0;
-      gradients.PartlyDry[slot] = false;
-    }
-    return isWet;
-  }
-
-  /// Gives dry corners the mean of the wet ones. Returns whether a triangle is partly dry.
-  static bool fillDry(double (&value)[3])
-  {
-    double sum = 0;
-    int wet = 0;
-    for (const double corner : value)
-    {
-      sum += std::isnan(corner) ? 0 : corner;
-      wet += !std::isnan(corner);
-    }
-    if (wet == 3 || wet == 0)
-    {
-      return false;
-    }
-    for (double& corner : value)
-    {
-      corner = std::isnan(corner) ? sum / wet : corner;
-    }
-    return true;
-  }
-
-  void interpolateWeighted(const Weighted& weighted) const
-  {
-    double value[3] = { this->valueAt(weighted.Ids[0]), this->valueAt(weighted.Ids[1]),
-      this->valueAt(weighted.Ids[2]) };
-    const bool isPartlyDry = this->Ground && fillDry(value);
-    double sum = weighted.Weights[0] * (value[1] - value[0]);
-    sum += weighted.Weights[1] * (value[2] - value[0]);
-    this->Samples[weighted.Sample * this->Stride] = Sample(value[0] + sum);
-    if (this->Ground)
-    {
-      this->dryAbove(weighted.Sample, isPartlyDry);
-    }
-  }
-
-  const KeptSamples& Kept;
-  const Value* const Values;
-  Sample* const Samples;
-  const Sample Null;
-  const std::int64_t Stride;
-};
-
-template <typename Value, typename Sample>
-void KeptSamples::fromPoints(
-  const Value* values, Sample* samples, Sample null, int threads, int stride) const
-{
-  Evaluation<Value, Sample>(*this, values, samples, null, stride).interpolate(threads);
+    });
 }
 
-template <typename Value, typename Sample>
-void KeptSamples::fromCells(
-  const Value* values, Sample* samples, Sample null, int threads, int stride) const
+template <typename Sample>
+void KeptSamples::sampleTiles(float* samples, int threads, const Sample& sample) const
 {
-  Evaluation<Value, Sample>(*this, values, samples, null, stride).take(threads);
+  this->forTiles(threads,
+    [&](const TileBox& box, const Slot* slots, const KeptSample* kept)
+    {
+      for (std::int64_t row = box.Row; row < box.Row + box.Rows; ++row)
+      {
+        const std::int64_t first = row * this->Width + box.Column;
+        for (std::int64_t i = first; i < first + box.Columns; ++i, ++kept)
+        {
+          samples[i] = sample(slots[kept->Slot], *kept, i);
+        }
+      }
+    });
 }
 
-template <typename Value, typename Sample>
+void KeptSamples::fromPoints(const double* values, float* samples, int threads) const
+{
+  this->sampleTiles(samples, threads,
+    [values](const Slot& slot, const KeptSample& kept, std::int64_t)
+    {
+      const double first = values[slot.Points[0]];
+      return float(first + double(kept.Second) * (values[slot.Points[1]] - first) +
+        double(kept.Third) * (values[slot.Points[2]] - first));
+    });
+}
+
+void KeptSamples::fromCells(const double* values, float* samples, int threads) const
+{
+  this->sampleTiles(samples, threads,
+    [values](const Slot& slot, const KeptSample& kept, std::int64_t)
+    { return std::isnan(kept.Second) ? noValue : float(values[slot.Cell]); });
+}
+
+namespace
+{
+
+/// Gives dry corners the mean of the wet ones. Returns whether a triangle is partly dry.
+bool fillDry(double (&value)[3])
+{
+  double sum = 0;
+  int wet = 0;
+  for (const double corner : value)
+  {
+    sum += std::isnan(corner) ? 0 : corner;
+    wet += !std::isnan(corner);
+  }
+  for (double& corner : value)
+  {
+    corner = std::isnan(corner) && wet > 0 ? sum / wet : corner;
+  }
+  return wet == 1 || wet == 2;
+}
+
+} // namespace
+
 void KeptSamples::waterLevel(
-  const Value* values, const Sample* ground, Sample* samples, Sample null, int threads) const
+  const double* values, const float* ground, float* samples, int threads) const
 {
-  Evaluation<Value, Sample> evaluation(*this, values, samples, null, 1);
-  evaluation.Ground = ground;
-  evaluation.interpolate(threads);
+  this->sampleTiles(samples, threads,
+    [values, ground](const Slot& slot, const KeptSample& kept, std::int64_t i)
+    {
+      double value[3] = { values[slot.Points[0]], values[slot.Points[1]], values[slot.Points[2]] };
+      const bool isPartlyDry = fillDry(value);
+      const auto level = float(value[0] + double(kept.Second) * (value[1] - value[0]) +
+        double(kept.Third) * (value[2] - value[0]));
+      return isPartlyDry && !(level > ground[i]) ? noValue : level;
+    });
 }
-
-#define TIPP_INSTANTIATE(Value, Sample)                                                            \
-  template void KeptSamples::fromPoints(const Value*, Sample*, Sample, int, int) const;            \
-  template void KeptSamples::fromCells(const Value*, Sample*, Sample, int, int) const;             \
-  template void KeptSamples::waterLevel(const Value*, const Sample*, Sample*, Sample, int) const;
-TIPP_INSTANTIATE(float, float)
-TIPP_INSTANTIATE(double, float)
-TIPP_INSTANTIATE(double, double)
-#undef TIPP_INSTANTIATE
 
 } // namespace tipp

@@ -14,14 +14,14 @@
 namespace tipp
 {
 
-/// The triangles that contain the samples of a lattice, with what interpolation needs of them, so
+/// The triangles that contain the samples of a lattice, and the samples' weights in them, kept so
 /// that field after field can be interpolated without the mesh: the time steps of a simulation, for
 /// example.
 ///
-/// The samples are kept in tiles of 16 rows. In a tile each triangle has a slot. A field is
-/// interpolated by computing its gradient in each slot's triangle, and then from the gradients the
-/// samples: both in arrays that fit into the first cache. The bits of the results are those of
-/// resample().
+/// The samples are kept in tiles of 16 rows, whose triangles and values fit into the first cache.
+/// Weights are rounded to 32 bits, since memory limits the speed: a sample differs from that of
+/// resample() by at most 2^-23 of the largest difference between its corners' values, plus the
+/// rounding of the result.
 class VTKTIPPACCELERATORS_EXPORT KeptSamples
 {
 public:
@@ -35,24 +35,17 @@ public:
   std::int64_t inside() const { return this->Inside; }
   std::size_t bytes() const; ///< memory in use
 
-  /// Interpolates a field linearly from its values at the mesh's points. A sample is NaN if a
-  /// corner of its triangle is. `null`: for the samples outside. `stride`: the distance between
-  /// consecutive values, and between samples, such as 3 for one component of a vector.
-  template <typename Value, typename Sample>
-  void fromPoints(
-    const Value* values, Sample* samples, Sample null, int threads, int stride = 1) const;
+  /// Interpolates a field linearly from its values at the mesh's points. A sample is NaN outside of
+  /// all triangles, and if a corner of its triangle is.
+  void fromPoints(const double* values, float* samples, int threads) const;
 
-  /// Takes a field from its values at the mesh's triangles.
-  template <typename Value, typename Sample>
-  void fromCells(
-    const Value* values, Sample* samples, Sample null, int threads, int stride = 1) const;
+  /// Takes a field from its values at the mesh's triangles. NaN outside.
+  void fromCells(const double* values, float* samples, int threads) const;
 
   /// Interpolates a water level that is NaN at dry points. In triangles with wet and dry points,
   /// the dry points get the mean of the wet ones, and samples where the level is not above the
   /// ground are dry. `ground`: the ground's elevation at the samples. Dry samples are NaN.
-  template <typename Value, typename Sample>
-  void waterLevel(
-    const Value* values, const Sample* ground, Sample* samples, Sample null, int threads) const;
+  void waterLevel(const double* values, const float* ground, float* samples, int threads) const;
 
 private:
   static constexpr std::int64_t TileRows = 16;
@@ -68,52 +61,45 @@ private:
     std::int64_t Columns;
   };
 
-  /// The slots of a tile, a multiple of four of them. The last triangle's slot is followed by at
-  /// least one without triangle, which the samples outside have. Arrays of `Slots` numbers follow
-  /// each other, from FirstNumber and FirstId on.
-  struct Tile
+  /// A triangle of a tile, or an edge near which samples lie: points and the triangle's index.
+  struct Slot
   {
-    std::int32_t Triangles; ///< slots with triangles
-    std::int32_t Slots;
-    std::size_t FirstNumber; ///< in Strip::Numbers: six arrays
-    std::size_t FirstId;     ///< in Strip::Ids: four arrays
+    std::int32_t Points[3];
+    std::int32_t Cell;
   };
 
-  /// A sample that is computed from weights: in a thin triangle, or near the mesh's border.
-  struct Weighted
+  struct KeptSample
   {
-    std::int64_t Sample;
-    std::int32_t Ids[3];
-    std::int32_t Cell;
-    double Weights[2]; ///< of the second and the third point; the first has the remainder
+    std::uint32_t Slot; ///< counted from the tile's first one
+    ///@{ Weights of the slot's points; the first one has the remainder. NaN outside.
+    float Second;
+    float Third;
+    ///@}
   };
 
   /// Consecutive tiles: the work of a thread at a time.
   struct Strip
   {
-    std::vector<Tile> Tiles;
-    std::vector<std::uint16_t> SlotOfSample; ///< tile by tile, row by row
-    /// Gradients of the weights of the second and third corner along both axes, and the first
-    /// corner's coordinates.
-    std::vector<double> Numbers;
-    std::vector<std::int32_t> Ids; ///< of the three corners, and the triangle's index
-    std::vector<Weighted> Special; ///< by ascending sample
+    std::vector<std::size_t> FirstSlots; ///< of each tile; each has one at least
+    std::vector<Slot> Slots;
+    std::vector<KeptSample> Samples; ///< tile by tile, row by row
   };
 
   class Builder;
-  template <typename Value, typename Sample>
-  class Evaluation;
 
   std::int64_t tileCount() const { return this->TilesAcross * this->TilesDown; }
   TileBox boxOf(std::int64_t tile) const;
+  template <typename Work>
+  void forTiles(int threads, const Work& work) const;
+  /// Sets each sample to sample(slot, kept, index).
+  template <typename Sample>
+  void sampleTiles(float* samples, int threads, const Sample& sample) const;
 
   std::int64_t Width = 0;
   std::int64_t Height = 0;
   std::int64_t TilesAcross = 0;
   std::int64_t TilesDown = 0;
   std::int64_t Inside = 0;
-  std::vector<double> U; ///< coordinates of the columns
-  std::vector<double> V; ///< coordinates of the rows
   std::vector<Strip> Strips;
 };
 

@@ -69,7 +69,7 @@ std::optional<SeriesSamples> findSamples(
 {
   SeriesMesh read = series.readMesh();
   SeriesSamples samples{ latticeOf(requireMeeting(series, read, range), range), KeptSamples() };
-  requireMemory(double(samples.Grid.samples()), 24 * double(samples.Grid.samples()));
+  requireMemory(double(samples.Grid.samples()), 32 * double(samples.Grid.samples()));
   constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
   const auto nodes = std::int64_t(read.XY.size() / 2);
   if (nodes > most || std::int64_t(read.Triangles.size() / 3) > most)
@@ -264,20 +264,19 @@ private:
 
   void sample(const Task& task, const std::vector<double>& values, float* samples) const
   {
-    constexpr float outside = std::numeric_limits<float>::quiet_NaN();
     const SeriesVariable& variable = this->Series.Variables[task.Of->Variable];
     const KeptSamples& kept = this->Samples.Kept;
     if (variable.OnCells)
     {
-      kept.fromCells(values.data(), samples, outside, this->Plan.Threads);
+      kept.fromCells(values.data(), samples, this->Plan.Threads);
     }
     else if (variable.Varies && !this->Ground.empty())
     {
-      kept.waterLevel(values.data(), this->Ground.data(), samples, outside, this->Plan.Threads);
+      kept.waterLevel(values.data(), this->Ground.data(), samples, this->Plan.Threads);
     }
     else
     {
-      kept.fromPoints(values.data(), samples, outside, this->Plan.Threads);
+      kept.fromPoints(values.data(), samples, this->Plan.Threads);
     }
   }
 
@@ -318,8 +317,7 @@ private:
       value = -value;
     }
     this->Ground.resize(std::size_t(this->Samples.Kept.samples()));
-    this->Samples.Kept.fromPoints(depth.data(), this->Ground.data(),
-      std::numeric_limits<float>::quiet_NaN(), this->Plan.Threads);
+    this->Samples.Kept.fromPoints(depth.data(), this->Ground.data(), this->Plan.Threads);
   }
 
   void writeReductions()
