@@ -11,7 +11,8 @@
 namespace tipp
 {
 
-SeriesAtPoints::SeriesAtPoints(MeshSeries& series, const std::vector<Point3>& points, int threads)
+SeriesAtPoints::SeriesAtPoints(
+  MeshSeries& series, std::vector<Point3> points, bool wraps, int threads)
   : Triangles(points.size(), -1)
   , Nodes(points.size())
   , Weights(points.size())
@@ -19,21 +20,38 @@ SeriesAtPoints::SeriesAtPoints(MeshSeries& series, const std::vector<Point3>& po
   const SeriesMesh read = series.readMesh();
   const SpacePoints nodes(read.XY, threads);
   const SimplexMesh mesh = nodes.meshOf(read.Triangles);
-  locatePoints(mesh, nullptr, nullptr, { points.data(), nullptr, std::int64_t(points.size()) },
-    threads,
-    [&](const std::int64_t* found, const CellLocation* at, std::int64_t count)
+  const auto take = [&](const std::int64_t* found, const CellLocation* at, std::int64_t count)
+  {
+    for (std::int64_t i = 0; i < count; ++i)
     {
-      for (std::int64_t i = 0; i < count; ++i)
+      const auto point = std::size_t(found[i]);
+      this->Triangles[point] = at[i].Cell;
+      for (std::size_t corner = 0; corner < 3; ++corner)
       {
-        const auto point = std::size_t(found[i]);
-        this->Triangles[point] = at[i].Cell;
-        for (std::size_t corner = 0; corner < 3; ++corner)
-        {
-          this->Nodes[point][corner] = read.Triangles[3 * std::size_t(at[i].Cell) + corner];
-          this->Weights[point][corner] = at[i].Weights[corner];
-        }
+        this->Nodes[point][corner] = read.Triangles[3 * std::size_t(at[i].Cell) + corner];
+        this->Weights[point][corner] = at[i].Weights[corner];
       }
-    });
+    }
+  };
+  constexpr double turn = 360;
+  for (const double shift : { 0.0, turn, -2 * turn }) // one turn to the east, then to the west
+  {
+    std::vector<std::int64_t> asked;
+    for (std::size_t i = 0; i < points.size(); ++i)
+    {
+      points[i].x += shift;
+      if (this->Triangles[i] < 0)
+      {
+        asked.push_back(std::int64_t(i));
+      }
+    }
+    locatePoints(mesh, nullptr, nullptr,
+      { points.data(), asked.data(), std::int64_t(asked.size()) }, threads, take);
+    if (!wraps)
+    {
+      break;
+    }
+  }
 }
 
 std::vector<double> SeriesAtPoints::valuesOf(

@@ -19,8 +19,9 @@ class VTKTIPPFILTERS_EXPORT SeriesAtPoints
 {
 public:
   /// Reads the mesh and locates the points, by the rule of CellLocator. `points`: with z ignored.
-  /// Throws IOError.
-  SeriesAtPoints(MeshSeries& series, const std::vector<Point3>& points, int threads);
+  /// `wraps`: x are longitudes, and points outside of the mesh are also looked for 360 degrees to
+  /// the east and to the west. Throws IOError.
+  SeriesAtPoints(MeshSeries& series, std::vector<Point3> points, bool wraps, int threads);
 
   /// The index of the triangle that contains each point; -1: none.
   const std::vector<std::int64_t>& triangles() const { return this->Triangles; }

@@ -17,6 +17,8 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
+#include <set>
 #include <utility>
 
 namespace tipp
@@ -70,6 +72,7 @@ public:
     , Paths(std::move(paths))
     , Before(std::move(before))
     , Samples(description.Fields.size())
+    , Work(WorkFolder::beside(this->Paths.back()))
   {
   }
 
@@ -83,7 +86,8 @@ public:
     {
       const bool hasSteps = !fieldsOf(this->Of, true).empty();
       const std::size_t file = varies ? step : hasSteps ? this->Of.Times.size() : 0;
-      this->writeFile(this->Paths[file], fields, this->Before[file]);
+      this->writeFile(this->finished(file), fields);
+      this->Finished.push_back(file);
       for (const std::size_t i : fields)
       {
         this->Samples[i].clear();
@@ -91,16 +95,32 @@ public:
     }
   }
 
-  void close() override {}
+  /// Moves all files to their paths.
+  void close() override
+  {
+    for (const std::size_t file : this->Finished)
+    {
+      publishFile(this->finished(file), this->Paths[file], this->Before[file]);
+    }
+  }
 
 protected:
-  virtual void writeFile(
-    const std::string& path, const std::vector<std::size_t>& fields, const PathState& before) = 0;
+  virtual void writeFile(const std::string& path, const std::vector<std::size_t>& fields) = 0;
+
+  /// Where a file is until all are complete. WorkFolder removes files of such names.
+  std::string finished(std::size_t file) const
+  {
+    return this->Work.path() + "/." + std::to_string(file) + ".tmp";
+  }
 
   const SeriesDescription Of;
   const std::vector<std::string> Paths;
   const std::vector<PathState> Before;
   std::vector<std::vector<float>> Samples; ///< by field, of the step that is written next
+
+private:
+  WorkFolder Work;
+  std::vector<std::size_t> Finished; ///< the files that are written
 };
 
 class GeoTiffs : public FilePerStep
@@ -109,8 +129,7 @@ public:
   using FilePerStep::FilePerStep;
 
 private:
-  void writeFile(const std::string& path, const std::vector<std::size_t>& fields,
-    const PathState& before) override
+  void writeFile(const std::string& path, const std::vector<std::size_t>& fields) override
   {
     RasterDescription raster;
     raster.Grid = gridOf(this->Of.Grid);
@@ -123,7 +142,7 @@ private:
       raster.Bands.push_back(this->Of.Fields[field].Name);
       bands.emplace_back(this->Samples[field].begin(), this->Samples[field].end());
     }
-    const auto writer = createRaster(path, raster, before);
+    const auto writer = createGeoTiff(path, raster, PathState());
     writeTiles(*writer, raster.Grid, readFrom(raster.Grid, bands), {}, raster.Threads);
     if (writer->hidden() > 0)
     {
@@ -147,6 +166,7 @@ public:
 
   void close() override
   {
+    FilePerStep::close();
     std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n"
                        "<Collection>\n";
     for (std::size_t i = 0; i < this->Of.Times.size(); ++i)
@@ -162,8 +182,7 @@ public:
   }
 
 private:
-  void writeFile(const std::string& path, const std::vector<std::size_t>& fields,
-    const PathState& before) override
+  void writeFile(const std::string& path, const std::vector<std::size_t>& fields) override
   {
     vtkNew<vtkImageData> image;
     const Lattice& grid = this->Of.Grid;
@@ -178,7 +197,7 @@ private:
       array->SetArray(this->Samples[field].data(), vtkIdType(this->Samples[field].size()), 1);
       image->GetPointData()->AddArray(array);
     }
-    writeXmlFile(path, before, image);
+    writeXmlFile(path, std::nullopt, image);
   }
 
   PendingFile List;
@@ -225,6 +244,20 @@ SeriesFiles::SeriesFiles(
   if (this->Of.Fields.empty())
   {
     throw IOError(this->Path, "would have no field; name arrays of the mesh.");
+  }
+  std::set<std::string> names;
+  if (openerOf(this->Path, Use::WritesSeries) == Opener::Netcdf)
+  {
+    names = { "crs", "lat", "lon", "time", "x", "y" };
+  }
+  for (const SeriesField& field : this->Of.Fields)
+  {
+    if (!names.insert(field.Name).second)
+    {
+      throw IOError(this->Path,
+        "would have the name '" + field.Name +
+          "' twice; give each array and each --reduce once, or name the arrays with --arrays.");
+    }
   }
   if (openerOf(this->Path, Use::WritesSeries) == Opener::Npy && this->Of.Fields.size() > 1)
   {

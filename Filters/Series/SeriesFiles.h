@@ -14,7 +14,7 @@
 namespace tipp
 {
 
-/// The files of a series, by the extension of `path`; each is complete when it appears:
+/// The files of a series, by the extension of `path`; they appear when all are complete:
 /// - .nc: one file, see createNetcdfSeries();
 /// - .npy: one file of float32, (steps, rows, columns) for a field that varies, else (rows,
 ///   columns), from the lowest y on; for one field;

@@ -233,10 +233,15 @@ void PendingFile::commit()
 {
   this->File->sync();
   this->File->close();
-  const std::string finished = std::exchange(this->Temporary, "");
-  commitOutput(this->Path, [&] { publish(finished, this->Path, this->Before, {}); });
+  publishFile(std::exchange(this->Temporary, ""), this->Path, this->Before);
+}
+
+void publishFile(const std::string& finished, const std::string& path, const PathState& before)
+{
+  const std::string target = outputPath(path).string();
+  commitOutput(target, [&] { publish(finished, target, before, {}); });
   removeFile(finished); // the previous file
-  syncToDisk(fs::path(this->Path).parent_path().string());
+  syncToDisk(fs::path(target).parent_path().string());
 }
 
 void requireFolderName(const std::string& path)

@@ -64,6 +64,11 @@ private:
   std::optional<OutputFile> File; ///< locked while it is open
 };
 
+/// Moves a finished file to its path. `before` as for PendingFile. Throws IOError, as
+/// PendingFile::commit().
+VTKTIPPIO_EXPORT void publishFile(
+  const std::string& finished, const std::string& path, const PathState& before);
+
 /// Throws IOError if an output folder's name ends like that of a mesh's or a table's file, such as
 /// "mesh.vtu": programs would take the folder for a file of this format.
 VTKTIPPIO_EXPORT void requireFolderName(const std::string& path);

@@ -110,8 +110,10 @@ private:
     const RawArray& first = steps.front();
     for (int i = 0; i < first.Components; ++i)
     {
-      const std::string name =
-        first.Components == 1 ? first.Name : first.Name + "_" + std::to_string(i);
+      std::string name = first.Components == 1 ? first.Name : first.Name + "_" + std::to_string(i);
+      const bool isTaken = std::any_of(this->Variables.begin(), this->Variables.end(),
+        [&name](const SeriesVariable& known) { return known.Name == name; });
+      name += isTaken ? "_cells" : "";
       this->Variables.push_back({ name, "", "", first.Type, onCells, varies });
       this->Sources.push_back({ steps, i });
     }

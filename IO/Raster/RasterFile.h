@@ -221,7 +221,8 @@ void forTiles(const RasterGrid& grid, const RasterWindow& window, const Visit& v
 VTKTIPPIO_EXPORT std::unique_ptr<RasterWriter> createRaster(
   const std::string& path, const RasterDescription& description, const PathState& before);
 
-std::unique_ptr<RasterWriter> createGeoTiff(
+/// Creates a GeoTIFF, whatever the path's extension.
+VTKTIPPIO_EXPORT std::unique_ptr<RasterWriter> createGeoTiff(
   const std::string& path, const RasterDescription& description, const PathState& before);
 
 /// Throws IOError, which names `path`, unless a GeoTIFF can be written as described.

@@ -42,6 +42,7 @@ std::unique_ptr<MeshSeries> openAdcircSeries(const std::string& path, const Seri
     variable.Name = nameOf(file);
     variable.Mark = dry;
     variable.Varies = values.Times.size() > 1;
+    series->TimeUnits = variable.Varies ? "seconds" : series->TimeUnits;
     series->addValues(file, variable, values.Components, std::move(values.Values), values.Times);
   }
   return series;

@@ -30,6 +30,7 @@ public:
     , Wrap(wrap)
     , Path(path)
   {
+    this->Cells.IsInDegrees = this->Cells.IsInDegrees || this->looksLikeDegrees();
   }
 
   CutMesh cut()
@@ -58,6 +59,19 @@ public:
   }
 
 private:
+  /// Whether the mesh goes around the Earth, in degrees. Formats such as ADCIRC's do not say.
+  bool looksLikeDegrees() const
+  {
+    constexpr double nearlyAll = 300;
+    Box2 box = Box2::empty();
+    for (std::size_t i = 0; i < this->Cells.XY.size(); i += 2)
+    {
+      box.extend(Point2{ this->Cells.XY[i], this->Cells.XY[i + 1] });
+    }
+    return box.width(0) > nearlyAll && box.width(0) <= turn && box.Min.x >= -turn / 2 &&
+      box.Max.x <= turn && box.Min.y >= -turn / 4 && box.Max.y <= turn / 4;
+  }
+
   void checkNodes() const
   {
     const std::vector<double>& xy = this->Cells.XY;

@@ -4,16 +4,40 @@
 #include "Crs/ReferenceSystem.h"
 #include "Files/IOError.h"
 
+#include <dlfcn.h>
 #include <netcdf.h>
 
 #include <algorithm>
-#include <cmath>
+#include <cstdint>
 #include <limits>
 
 namespace tipp
 {
 namespace
 {
+
+/// Calls a function of the HDF5 library that NetCDF is linked to; does nothing if there is none.
+template <typename Function, typename... Arguments>
+void callHdf5(const char* name, Arguments... arguments)
+{
+  if (const auto function = reinterpret_cast<Function>(dlsym(RTLD_DEFAULT, name)))
+  {
+    function(arguments...);
+  }
+}
+
+/// HDF5 crashes when a file that could not be written, as on a full disk, is still open at the end
+/// of the process. All files are closed here, so it has nothing to do then.
+void keepHdf5FromExit()
+{
+  callHdf5<int (*)()>("H5dont_atexit");
+}
+
+/// Stops HDF5 from printing errors of this thread, which are exceptions here.
+void silenceHdf5()
+{
+  callHdf5<int (*)(std::int64_t, void*, void*)>("H5Eset_auto2", std::int64_t(0), nullptr, nullptr);
+}
 
 class NetcdfGrids : public SeriesOutput
 {
@@ -25,6 +49,7 @@ public:
     , Pending(path, before)
   {
     this->Pending.unlock();
+    keepHdf5FromExit();
     this->check(nc_create(this->Pending.temporaryPath().c_str(),
       NC_CLOBBER | NC_NETCDF4 | NC_CLASSIC_MODEL, &this->File));
     this->IsOpen = true;
@@ -35,7 +60,8 @@ public:
 
   ~NetcdfGrids() override
   {
-    if (this->IsOpen)
+    // After a failed write, as on a full disk, HDF5 crashes when it is told to give up the file.
+    if (this->IsOpen && !this->HasFailed)
     {
       nc_abort(this->File);
     }
@@ -45,6 +71,7 @@ public:
 
   void write(std::size_t field, std::size_t step, const float* samples) override
   {
+    silenceHdf5();
     const bool varies = this->Of.Fields[field].Varies;
     const std::size_t start[3] = { step, 0, 0 };
     const std::size_t count[3] = { 1, this->rows(), this->columns() };
@@ -55,6 +82,7 @@ public:
 
   void close() override
   {
+    silenceHdf5();
     this->IsOpen = false;
     this->check(nc_close(this->File));
     this->Pending.commit();
@@ -64,13 +92,16 @@ private:
   std::size_t columns() const { return std::size_t(this->Of.Grid.size(0)); }
   std::size_t rows() const { return std::size_t(this->Of.Grid.size(1)); }
 
-  void check(int status) const
+  /// `name`: of the variable or attribute at which a call may fail.
+  void check(int status, const std::string& name = "") const
   {
     if (status != NC_NOERR)
     {
+      this->HasFailed = true;
       throw IOError(this->Path,
-        std::string("cannot be written as NetCDF: ") + nc_strerror(status) +
-          "; is the disk full, or a name unusual?");
+        std::string("cannot be written as NetCDF") + (name.empty() ? "" : ", at '" + name + "'") +
+          ": " + nc_strerror(status) +
+          (name.empty() ? "; is the disk full?" : "; leave it out with --arrays, or write .tif."));
     }
   }
 
@@ -92,8 +123,9 @@ private:
   int addVariable(const std::string& name, nc_type type, const std::vector<int>& dimensions) const
   {
     int variable = 0;
-    this->check(nc_def_var(
-      this->File, name.c_str(), type, int(dimensions.size()), dimensions.data(), &variable));
+    this->check(nc_def_var(this->File, name.c_str(), type, int(dimensions.size()),
+                  dimensions.data(), &variable),
+      name);
     return variable;
   }
 
@@ -197,6 +229,7 @@ private:
   PendingFile Pending;
   int File = 0;
   bool IsOpen = false;
+  mutable bool HasFailed = false;
   std::string XName;
   std::string YName;
   int X = -1;

@@ -7,6 +7,8 @@
 #include "Flat/FlatMesh.h"
 #include "Flat/FlatSeries.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <string_view>
@@ -82,7 +84,16 @@ std::unique_ptr<MeshSeries> openSeries(const std::string& path, const SeriesOpti
 {
   if (isMeshSeries(path))
   {
-    return openMeshSeries(path, options);
+    std::unique_ptr<MeshSeries> series = openMeshSeries(path, options);
+    if (!series->LeftOut.empty())
+    {
+      const SeriesLeftOut& first = series->LeftOut.front();
+      const std::size_t more = series->LeftOut.size() - 1;
+      fmt::print(stderr, "tipp: warning: {}: {} {}, and is left out{}.\n", path, first.Name,
+        first.Reason,
+        more == 0 ? "" : fmt::format("; so are {} more, which 'tipp info' lists", more));
+    }
+    return series;
   }
   if (!isFlatMesh(path))
   {

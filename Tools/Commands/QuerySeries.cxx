@@ -8,6 +8,7 @@
 #include "Files/Formats.h"
 #include "Files/IOError.h"
 #include "Files/PendingOutput.h"
+#include "Flat/FlatMesh.h"
 #include "Npy/NpyFile.h"
 #include "Parallel/ParallelFor.h"
 #include "Series/SeriesAtPoints.h"
@@ -176,8 +177,9 @@ std::unique_ptr<StationTable> createTable(const StationArguments& arguments,
 
 bool isStationRun(const StationArguments& arguments)
 {
-  return isMeshSeries(arguments.Mesh) || !isOneStep(arguments.Step) || !arguments.Values.empty() ||
-    arguments.NoData;
+  const bool isFolder = isFlatMesh(arguments.Mesh) && !isOpenedBy(arguments.Mesh, Opener::Vtk);
+  return isFolder || isMeshSeries(arguments.Mesh) || !isOneStep(arguments.Step) ||
+    !arguments.Values.empty() || arguments.NoData;
 }
 
 int runStations(const StationArguments& arguments)
@@ -192,7 +194,8 @@ int runStations(const StationArguments& arguments)
     parseSteps(series->Times.empty() || !arguments.Step.empty() ? arguments.Step : "all",
       series->Times.size(), series->Path);
   const std::vector<Point3> stations = readStations(arguments);
-  const SeriesAtPoints located(*series, stations, threadCount(arguments.Threads));
+  const SeriesAtPoints located(
+    *series, stations, arguments.Reading.Wrap != 0, threadCount(arguments.Threads));
   const std::unique_ptr<StationTable> table =
     createTable(arguments, before, *series, variables, stations, steps.size());
   ProgressBar bar("reading");

@@ -388,7 +388,8 @@ std::optional<double> connectMesh(const ResampleArguments& arguments, Communicat
 constexpr const char* footer =
   R"(MESH    any VTK file of triangles, tetrahedra or other cells, which are cut into these; or
         a partitioned mesh (its folder or index) or a flat one (a folder of .npy
-        arrays), of which only the range of --bounds is read. A partitioned mesh may be larger than
+        arrays), of which only the range of --bounds is read; or the output of a model
+        (.nc, .slf, .2dm, .14 ..., see STEPS). A partitioned mesh may be larger than
         memory: it is read in parts of about --memory, in bytes or such as 512M. The z of
         a surface is sampled as the array elevation, unless all points have the same z.
 IMAGE   .vti: all arrays, vtkValidPointMask (1 where a cell contains the sample) and
@@ -399,14 +400,16 @@ IMAGE   .vti: all arrays, vtkValidPointMask (1 where a cell contains the sample)
         pixels' centres, and --null is its number for no value (default: -9999). Values
         have 32 bits, or 64 if they are too large for that.
 
-Time steps (--step, --reduce, .nc or .pvd) are resampled one after another in the plane, from
-a flat mesh of triangles; the triangles of the samples are found once. Memory is needed for
-the mesh and a few steps, however many there are. .nc: NetCDF in the manner of CF, with
-time and reference system. .tif and .pvd: a file for each step, such as maps_0012.tif, and
-one for what does not vary. .npy: steps x rows x columns. Values have 32 bits. Dry nodes are
-those without a value (NaN, a fill value or --no-data), and triangles with one are dry,
-unless --waterline is given. --reduce counts steps with a value only; a step stands for the
-time from half way after the step before to half way before the next one.
+STEPS   The output of a model, and the time steps of a flat mesh of triangles if several
+        are asked for, are resampled step by step in the plane; the triangles of the
+        samples are found once. Memory is needed for the mesh and a few steps, however
+        many there are. .nc: NetCDF in the manner of CF, with time and reference system.
+        .tif and .pvd: a file for each step, such as maps_0012.tif, and one for what does
+        not vary. .npy: steps x rows x columns. Values have 32 bits. Nodes without a
+        value (NaN, a fill value or --no-data) are dry, and so are triangles with such a
+        node, unless --waterline is given. --reduce takes the steps with a value; a step
+        stands for the time from half way after the step before it to half way before
+        the next one.
 
 With --method conservative, samples are the exact means over the part of each pixel that
 cells cover, as float64. A pixel has the sample as its centre and reaches half way to the

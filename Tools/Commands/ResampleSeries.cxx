@@ -86,6 +86,12 @@ SeriesPlan planOf(const MeshSeries& series, const ResampleArguments& arguments)
 {
   SeriesPlan plan;
   plan.Variables = variablesOf(series, arguments);
+  if (plan.Variables.empty())
+  {
+    throw IOError(series.Path,
+      arguments.Reduce.empty() ? "has no values at its nodes or cells."
+                               : "has no values that vary in time, which --reduce needs.");
+  }
   for (const std::string& text : arguments.Reduce)
   {
     const std::optional<SeriesReduction> reduction = SeriesReduction::parse(text);

@@ -43,11 +43,9 @@ TEST_F(LongitudesOfCells, AreOnBothSidesOfTheMeridianWhereTheyCrossIt)
   EXPECT_EQ((Doubles{ 1, 2, 3, 4, 4, 2, 3 }), depth);
 }
 
-TEST_F(LongitudesOfCells, StayAsTheyAreWithoutWrap)
+TEST_F(LongitudesOfCells, AroundTheEarthNeedWrap)
 {
-  const SeriesMesh mesh = openMeshSeries(this->Grid)->readMesh();
-  EXPECT_TRUE(mesh.OriginalCells.empty());
-  EXPECT_EQ(8U, mesh.XY.size());
+  expectIOError(this->Grid, "give --wrap", [&] { openMeshSeries(this->Grid)->readMesh(); });
 }
 
 TEST_F(LongitudesOfCells, AreNotWrappedInMetres)

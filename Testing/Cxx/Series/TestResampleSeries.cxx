@@ -333,7 +333,7 @@ TEST(SeriesAtPoints, InterpolateInTheTriangleOfEachPoint)
 {
   Basin series(2);
   const std::vector<Point3> points = { { 0.31, 0.62, 9 }, { 0.9, 0.05, 0 }, { 3, 3, 0 } };
-  const SeriesAtPoints located(series, points, 2);
+  const SeriesAtPoints located(series, points, false, 2);
   std::vector<double> read;
   for (std::size_t i = 0; i < side * side; ++i)
   {
@@ -346,4 +346,17 @@ TEST(SeriesAtPoints, InterpolateInTheTriangleOfEachPoint)
   series.read(3, 0, read);
   EXPECT_EQ(double(located.triangles()[1]), located.valuesOf(series.Variables[3], read)[1]);
   EXPECT_EQ(-1, located.triangles()[2]);
+}
+
+TEST(SeriesAtPoints, AreFoundATurnAwayIfTheyAreLongitudes)
+{
+  Basin series(1);
+  const std::vector<Point3> points = { { 360.31, 0.62, 0 }, { -359.1, 0.05, 0 }, { 0.5, 0.5, 0 } };
+  for (const bool wraps : { false, true })
+  {
+    const std::vector<std::int64_t> found = SeriesAtPoints(series, points, wraps, 2).triangles();
+    EXPECT_EQ(wraps, found[0] >= 0);
+    EXPECT_EQ(wraps, found[1] >= 0);
+    EXPECT_GE(found[2], 0);
+  }
 }

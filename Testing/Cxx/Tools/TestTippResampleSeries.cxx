@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -191,4 +192,33 @@ TEST_F(TippResampleSeries, RefusesQueriesThatNeedAPartitionedMesh)
     this->Folder, { "query", "gauges.csv", "surge", "-o", "no.csv", "--step", "all", "--closest" });
   EXPECT_NE(0, outcome.ExitCode);
   EXPECT_NE(outcome.Err.find("partition it first"), std::string::npos) << outcome.Err;
+}
+
+TEST_F(TippResampleSeries, WritesAllFilesOrNone)
+{
+  this->write<double>("point_data/level", "<f8", "(4, 4)",
+    { 0, 1, 1, 0, 10, 11, 11, 10, 20, 21, 21, 20, 1e40, 31, 31, 30 });
+  this->Folder.file("maps_0001.tif", "of the user");
+  for (const char* const name : { "maps.tif", "maps.pvd" })
+  {
+    const Outcome outcome = this->run({ "-o", name, "--step", "all", "--arrays", "level" });
+    EXPECT_EQ(1, outcome.ExitCode);
+    EXPECT_NE(outcome.Err.find("which 32 bits do not hold"), std::string::npos) << outcome.Err;
+  }
+  EXPECT_EQ("of the user", contentOf(this->Folder.path("maps_0001.tif")));
+  for (const auto& entry : std::filesystem::directory_iterator(this->Folder.path("")))
+  {
+    const std::string name = entry.path().filename().string();
+    EXPECT_TRUE(
+      name == "surge" || name == "maps_0001.tif" || name.find("maps") == std::string::npos)
+      << name;
+  }
+}
+
+TEST_F(TippResampleSeries, NamesAFieldThatWouldBeThereTwice)
+{
+  const Outcome outcome =
+    this->run({ "-o", "twice.nc", "--reduce", "max", "max", "--arrays", "level" });
+  EXPECT_EQ(1, outcome.ExitCode);
+  EXPECT_NE(outcome.Err.find("the name 'level_max' twice"), std::string::npos) << outcome.Err;
 }
