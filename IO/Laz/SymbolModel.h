@@ -15,8 +15,8 @@
 namespace tipp
 {
 
-/// Returns how many bytes those of the eight ascending values at `ascending` take that are at most
-/// `value`, which must be lower than 2^16.
+/// Of the eight ascending values at `ascending`, returns the size in bytes of those that are at
+/// most `value`, which must be lower than 2^16.
 [[gnu::always_inline]] inline unsigned bytesAtMost(
   const std::uint16_t* ascending, std::uint32_t value)
 {

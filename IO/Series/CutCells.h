@@ -33,8 +33,7 @@ struct CellMesh
 struct CutMesh
 {
   SeriesMesh Mesh;
-  /// Nodes that are added to those of the file, which come first: the index of the node that each
-  /// is a copy of.
+  /// The nodes added after the nodes of the file: each is a copy of the node with this index.
   std::vector<std::int64_t> Copies;
   std::vector<SeriesLeftOut> LeftOut;
 };

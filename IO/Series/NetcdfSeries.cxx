@@ -4,9 +4,9 @@
 #include "Files/IOError.h"
 #include "Netcdf/NetcdfFile.h"
 #include "Series/CellSeries.h"
+#include "Series/LocatedVariables.h"
 #include "Series/NetcdfMesh.h"
 #include "Series/NetcdfTime.h"
-#include "Series/PlacedVariables.h"
 #include "Series/ReadOrder.h"
 
 #include <algorithm>
@@ -129,19 +129,19 @@ private:
   void addFile(NetcdfFile& file)
   {
     const NetcdfTime time = readNetcdfTime(file);
-    PlacedVariables placed = placeVariables(file.path(), file.content(),
+    LocatedVariables located = locateVariables(file.path(), file.content(),
       { &this->Mesh, this->Dimensions, time.Dimension, file.path() == this->Path });
-    const bool varies = std::any_of(placed.Variables.begin(), placed.Variables.end(),
-      [](const PlacedVariable& variable) { return variable.Described.Varies; });
+    const bool varies = std::any_of(located.Variables.begin(), located.Variables.end(),
+      [](const LocatedVariable& variable) { return variable.Described.Varies; });
     if (varies)
     {
       this->setTimes(file.path(), time);
     }
-    for (PlacedVariable& variable : placed.Variables)
+    for (LocatedVariable& variable : located.Variables)
     {
       this->addVariable(file, std::move(variable));
     }
-    this->LeftOut.insert(this->LeftOut.end(), placed.LeftOut.begin(), placed.LeftOut.end());
+    this->LeftOut.insert(this->LeftOut.end(), located.LeftOut.begin(), located.LeftOut.end());
     if (time.AreNumbers && varies)
     {
       this->LeftOut.push_back({ "time", "has no values, so the steps are counted from 0" });
@@ -159,7 +159,7 @@ private:
     this->Calendar = time.Calendar;
   }
 
-  void addVariable(NetcdfFile& file, PlacedVariable variable)
+  void addVariable(NetcdfFile& file, LocatedVariable variable)
   {
     const auto same = std::find_if(this->Variables.begin(), this->Variables.end(),
       [&](const SeriesVariable& other) { return other.Name == variable.Described.Name; });

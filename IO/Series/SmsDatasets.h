@@ -41,8 +41,8 @@ class SmsStep
 public:
   SmsStep(const std::string& path, const SmsMeshShape& shape, SmsDataset& dataset);
 
-  /// Throws IOError unless a file with values at so many nodes belongs to the mesh; `cells` may be
-  /// 0, if the file does not say.
+  /// Throws IOError unless the mesh has this number of nodes and cells; `cells` may be 0, if the
+  /// file does not say.
   void checkSize(std::int64_t nodes, std::int64_t cells) const;
 
   /// Adds the values of a step, as many as checkSize() has accepted times the components.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Series/PlacedVariables.h"
+#include "Series/LocatedVariables.h"
 
 #include "Files/IOError.h"
 
@@ -32,10 +32,11 @@ int findAlike(const std::string& path, const NetcdfContent& content, int time,
                                         : int(alike - content.Dimensions.begin());
 }
 
-class Placer
+class VariableLocator
 {
 public:
-  Placer(const std::string& path, const NetcdfContent& content, const PlacingContext& context)
+  VariableLocator(
+    const std::string& path, const NetcdfContent& content, const LocatingContext& context)
     : Content(content)
     , Context(context)
     , Node(context.HasMesh ? context.Mesh->NodeDimension
@@ -47,7 +48,7 @@ public:
   {
   }
 
-  PlacedVariables place()
+  LocatedVariables locate()
   {
     for (const NetcdfVariable& variable : this->Content.Variables)
     {
@@ -98,14 +99,14 @@ private:
 
   void addNumbers(const NetcdfVariable& variable, bool isOnCells)
   {
-    PlacedVariable placed;
+    LocatedVariable located;
     for (std::size_t i = 0; i < variable.Dimensions.size(); ++i)
     {
       const int dimension = variable.Dimensions[i];
       const NetcdfDimension& described = this->Content.Dimensions[std::size_t(dimension)];
-      if (dimension == this->Context.TimeDimension && placed.TimeAxis < 0)
+      if (dimension == this->Context.TimeDimension && located.TimeAxis < 0)
       {
-        placed.TimeAxis = int(i);
+        located.TimeAxis = int(i);
       }
       else if (dimension != this->Node && dimension != this->Cell && described.Size != 1)
       {
@@ -115,22 +116,22 @@ private:
         return;
       }
     }
-    if (placed.TimeAxis >= 0 && this->Content.size(this->Context.TimeDimension) == 0)
+    if (located.TimeAxis >= 0 && this->Content.size(this->Context.TimeDimension) == 0)
     {
       this->leaveOut(variable, "has no time steps");
       return;
     }
-    placed.Variable = &variable;
-    placed.Described = { variable.Name, variable.text("long_name"), variable.text("units"),
-      variable.unpackedType(), isOnCells, placed.TimeAxis >= 0 };
-    this->Result.Variables.push_back(std::move(placed));
+    located.Variable = &variable;
+    located.Described = { variable.Name, variable.text("long_name"), variable.text("units"),
+      variable.unpackedType(), isOnCells, located.TimeAxis >= 0 };
+    this->Result.Variables.push_back(std::move(located));
   }
 
   const NetcdfContent& Content;
-  const PlacingContext& Context;
+  const LocatingContext& Context;
   const int Node;
   const int Cell;
-  PlacedVariables Result;
+  LocatedVariables Result;
 };
 
 } // namespace
@@ -142,10 +143,10 @@ MeshDimensions dimensionsOf(const NetcdfContent& content, const NetcdfMesh& mesh
     content.size(mesh.CellDimension) };
 }
 
-PlacedVariables placeVariables(
-  const std::string& path, const NetcdfContent& content, const PlacingContext& context)
+LocatedVariables locateVariables(
+  const std::string& path, const NetcdfContent& content, const LocatingContext& context)
 {
-  return Placer(path, content, context).place();
+  return VariableLocator(path, content, context).locate();
 }
 
 } // namespace tipp

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef tippPlacedVariables_h
-#define tippPlacedVariables_h
+#ifndef tippLocatedVariables_h
+#define tippLocatedVariables_h
 
 #include "Series/MeshSeries.h"
 #include "Series/NetcdfMesh.h"
@@ -24,21 +24,21 @@ struct MeshDimensions
 MeshDimensions dimensionsOf(const NetcdfContent& content, const NetcdfMesh& mesh);
 
 /// A variable with one value per node or cell, and possibly per time step.
-struct PlacedVariable
+struct LocatedVariable
 {
   SeriesVariable Described;
   const NetcdfVariable* Variable = nullptr;
   int TimeAxis = -1; ///< the index of time among its dimensions; -1: it does not vary
 };
 
-struct PlacedVariables
+struct LocatedVariables
 {
-  std::vector<PlacedVariable> Variables;
+  std::vector<LocatedVariable> Variables;
   std::vector<SeriesLeftOut> LeftOut;
 };
 
-/// What placeVariables() must know of the mesh and the file.
-struct PlacingContext
+/// What locateVariables() must know of the mesh and the file.
+struct LocatingContext
 {
   const NetcdfMesh* Mesh;
   MeshDimensions Dimensions;
@@ -48,8 +48,8 @@ struct PlacingContext
 
 /// Finds the variables with values at nodes or cells. Throws IOError if the file belongs to another
 /// mesh.
-PlacedVariables placeVariables(
-  const std::string& path, const NetcdfContent& content, const PlacingContext& context);
+LocatedVariables locateVariables(
+  const std::string& path, const NetcdfContent& content, const LocatingContext& context);
 
 } // namespace tipp
 
