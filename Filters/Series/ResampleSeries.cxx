@@ -2,7 +2,6 @@
 #include "Series/ResampleSeries.h"
 
 #include "Files/IOError.h"
-#include "Parallel/BoundsOf.h"
 #include "Parallel/Stopwatch.h"
 #include "Sampling/SamplingLattice.h"
 #include "Series/SpacePoints.h"

@@ -22,7 +22,7 @@ namespace tipp
 /// The grid to resample on.
 struct SeriesRange
 {
-  std::optional<Box2> Bounds;                 ///< nullopt: those of the mesh
+  std::optional<Box2> Bounds;                 ///< nullopt: the mesh's bounds
   std::array<int, 2> Dimensions = {};         ///< number of samples; see chosenDimensions()
   std::array<double, 2> Delta = { 0.0, 0.0 }; ///< distance of samples; 0: Dimensions applies
 };

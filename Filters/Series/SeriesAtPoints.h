@@ -26,8 +26,9 @@ public:
   /// The index of the triangle that contains each point; -1: none.
   const std::vector<std::int64_t>& triangles() const { return this->Triangles; }
 
-  /// A variable's values at the points, from what MeshSeries::read() gives: linear in the triangle,
-  /// or those of the triangle. NaN outside of the mesh and where a corner has no value.
+  /// A variable's values at the points, from what MeshSeries::read() gives: interpolated in
+  /// the triangle, or its value if the variable is on cells. NaN outside of the mesh and where a
+  /// corner has no value.
   std::vector<double> valuesOf(
     const SeriesVariable& variable, const std::vector<double>& read) const;
 

@@ -209,8 +209,6 @@ private:
 
   void writeAxes() const
   {
-    std::vector<double> x;
-    std::vector<double> y;
     const LatticeAxis columns(this->Of.Grid, 0);
     const LatticeAxis rows(this->Of.Grid, 1);
     this->check(nc_put_var_double(this->File, this->X, columns.data()));

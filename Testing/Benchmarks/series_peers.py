@@ -96,7 +96,8 @@ def copy(source, maps, output):
             zeta[step] = image
             seconds += time.perf_counter() - begin
         begin = time.perf_counter()
-    return seconds + time.perf_counter() - begin
+        file.sync()
+        return seconds + time.perf_counter() - begin
 
 
 def scipy_step(points, grid):
@@ -173,7 +174,7 @@ def main():
     ours = 0.0
     for threads in (1, 2):
         runs = [run_tipp(tipp, flat, highest, samples, threads, "--reduce", "max") for _ in range(5)]
-        ours = min(sampling for _, sampling, _ in runs) / steps
+        ours = max(0.001, min(sampling for _, sampling, _ in runs)) / steps  # it is printed in milliseconds
         print(f"tipp, threads {threads}: {ours:.4f} s a step, peak memory {max(memory for *_, memory in runs)} MB")
     whole = min(run_tipp(tipp, source, maps, samples, 2)[0] for _ in range(2))
     print(f"tipp, from NetCDF to NetCDF: {whole:.2f} s")

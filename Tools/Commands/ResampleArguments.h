@@ -17,7 +17,7 @@ struct ResampleArguments
   std::string Input;
   std::string Output;
   Opener OutputIs = Opener::None; ///< the format of Output
-  std::vector<double> Bounds;     ///< six; empty: those of the mesh
+  std::vector<double> Bounds;     ///< six; empty: the mesh's bounds
   bool BoundsHaveZ = true;        ///< whether the user gave all six
   std::vector<int> Dimensions;    ///< number of samples; empty: given by Delta
   /// Distance of samples; empty: given by Dimensions.
