@@ -218,7 +218,7 @@ BlockRefiner::Outcome BlockRefiner::split(Index t, int corner)
   const Index number = this->Mesh.segmentOf(a, b);
   const Point2 middle = this->splitPoint(a, b, this->Mesh.Segments[std::size_t(number)]);
   // The rounded point may be beside its subsegment, where a vertex is in the way. Then one of the
-  // doubles around it is taken.
+  // doubles around it is taken, in the box of the ends: each chain leads forwards in x and in y.
   constexpr std::array<std::array<int, 2>, 9> tries{ { { 0, 0 }, { 1, 0 }, { -1, 0 }, { 0, 1 },
     { 0, -1 }, { 1, 1 }, { 1, -1 }, { -1, 1 }, { -1, -1 } } };
   constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -226,6 +226,11 @@ BlockRefiner::Outcome BlockRefiner::split(Index t, int corner)
   {
     const Point2 p{ x == 0 ? middle.x : std::nextafter(middle.x, x * infinity),
       y == 0 ? middle.y : std::nextafter(middle.y, y * infinity) };
+    if (p.x < std::min(from.x, to.x) || p.x > std::max(from.x, to.x) ||
+      p.y < std::min(from.y, to.y) || p.y > std::max(from.y, to.y))
+    {
+      continue;
+    }
     const Outcome outcome = this->growAtSegment(t, corner, p);
     if (outcome == Outcome::Done)
     {

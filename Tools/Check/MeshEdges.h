@@ -68,6 +68,9 @@ public:
     }
   }
 
+  /// Returns the third corner of the triangle on the left of an edge; None: there is none.
+  std::int64_t leftOf(std::int64_t from, std::int64_t to) const;
+
   /// Returns the vertices of edges that have one triangle only, sorted by position.
   std::vector<std::int64_t> borderVertices() const;
 
@@ -88,8 +91,6 @@ private:
   {
     return i < this->Edges.size() && this->Edges[i].From == vertex;
   }
-  /// Returns the third corner of the triangle on the left of an edge; None: there is none.
-  std::int64_t leftOf(std::int64_t from, std::int64_t to) const;
   bool isBeforeAt(std::int64_t a, std::int64_t b) const
   {
     return isBefore(this->at(a), this->at(b));

@@ -5,6 +5,7 @@
 #include "Check/ExactVector.h"
 #include "Check/InputAngles.h"
 #include "Check/MeshEdges.h"
+#include "Check/RoundedBorder.h"
 #include "Check/SplitChains.h"
 
 #include <algorithm>
@@ -159,6 +160,7 @@ private:
   const check::AngleBound Bound;
   const MeshEdges Edges;
   check::InputAngles Angles;
+  check::RoundedBorder Border;
   std::vector<FixedEdge> Fixed;   ///< the chains' edges, sorted
   std::vector<std::size_t> Below; ///< triangles with an angle below the bound, in order
   QualityReport Report;
@@ -168,10 +170,17 @@ void QualityCheck::addChain(Position a, Position b, const check::Route& route)
 {
   for (std::size_t i = 0; i + 1 < route.Vertices.size(); ++i)
   {
-    if (!route.IsGap[i])
+    if (route.IsGap[i])
     {
-      this->Fixed.push_back({ std::min(route.Vertices[i], route.Vertices[i + 1]),
-        std::max(route.Vertices[i], route.Vertices[i + 1]) });
+      continue;
+    }
+    const std::int64_t from = route.Vertices[i];
+    const std::int64_t to = route.Vertices[i + 1];
+    this->Fixed.push_back({ std::min(from, to), std::max(from, to) });
+    const bool isMeshLeft = this->Edges.leftOf(from, to) != MeshEdges::None;
+    if (isMeshLeft != (this->Edges.leftOf(to, from) != MeshEdges::None))
+    {
+      this->Border.add(a, b, route.Positions[i], route.Positions[i + 1], isMeshLeft);
     }
   }
   this->Angles.add(a, b, route.Vertices);
@@ -217,6 +226,7 @@ void QualityCheck::checkSegments()
   std::sort(this->Fixed.begin(), this->Fixed.end());
   this->Fixed.erase(std::unique(this->Fixed.begin(), this->Fixed.end()), this->Fixed.end());
   this->Angles.finish();
+  this->Border.finish();
 }
 
 std::vector<std::array<Position, 2>> QualityCheck::hullEdges() const
@@ -244,8 +254,8 @@ std::vector<std::array<Position, 2>> QualityCheck::hullEdges() const
   return edges;
 }
 
-/// Counts the points that are in a triangle or on its edges, and that are no vertices if
-/// `unlessVertices`.
+/// Counts the points that are in a triangle or on its edges. If `unlessVertices`, those that are
+/// vertices do not count, nor those outside of the border's segments.
 QualityReport::Fault QualityCheck::countHeld(
   const std::vector<double>& xy, bool unlessVertices) const
 {
@@ -290,7 +300,7 @@ QualityReport::Fault QualityCheck::countHeld(
   QualityReport::Fault fault;
   for (const Sought& point : sought)
   {
-    if (point.IsHeld)
+    if (point.IsHeld && !(unlessVertices && this->Border.mayCover(point.At)))
     {
       fault.add(std::int64_t(point.Index));
     }

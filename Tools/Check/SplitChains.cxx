@@ -48,7 +48,9 @@ SplitChains::SplitChains(const MeshEdges& mesh)
 /// coordinates of 5,000 km.
 ///
 /// A split point is between p and q in each coordinate: with f of at most 2/3, rounding cannot lead
-/// it beyond, as neighbouring doubles have an exact difference. So the chain leads forwards.
+/// it beyond, as neighbouring doubles have an exact difference. Where a vertex is in the way of the
+/// rounded point, one of the doubles beside it is taken, which is between p and q, too. So the
+/// chain leads forwards.
 Position SplitChains::reach(Position a, Position b)
 {
   constexpr double part = 0x1p-40;
@@ -90,12 +92,14 @@ bool SplitChains::crossesMesh(const Route& route) const
   return false;
 }
 
-/// Returns whether the way between two positions crosses an edge of the border whose ends are both
-/// farther from the line than rounding explains.
+/// Returns whether the way between two positions crosses an edge of the border, where neither the
+/// edge nor the way ends nearer to the other than rounding explains.
 bool SplitChains::crossesBorder(Position from, Position to, const SnappedLine& line) const
 {
   const auto [west, east] = std::minmax({ from.x, to.x });
   const auto [south, north] = std::minmax({ from.y, to.y });
+  const auto edgeReaches = [this](Position p, Position q, Position end)
+  { return SnappedLine(p, q, this->Setting.WideReach).reaches(end); };
   const Position first{ west - this->Widest, 0 }; // no edge that begins before it comes so far
   auto edge = std::lower_bound(
     this->BorderEdges.begin(), this->BorderEdges.end(), BorderEdge{ first, first }, isWestOf);
@@ -104,7 +108,7 @@ bool SplitChains::crossesBorder(Position from, Position to, const SnappedLine& l
     const auto& [p, q] = *edge;
     if (q.x >= west && std::max(p.y, q.y) >= south && std::min(p.y, q.y) <= north &&
       turn(from, to, p) * turn(from, to, q) < 0 && turn(p, q, from) * turn(p, q, to) < 0 &&
-      !line.reaches(p) && !line.reaches(q))
+      !line.reaches(p) && !line.reaches(q) && !edgeReaches(p, q, from) && !edgeReaches(p, q, to))
     {
       return true;
     }

@@ -156,6 +156,32 @@ TEST(Refine, CombsAndSpiralsKeepTheirSegments)
   }
 }
 
+TEST(Refine, SplitPointsAreInTheBoxOfTheirSegment)
+{
+  LineGraph graph; // the ends of segment 1 have neighbouring doubles as x
+  graph.addPoint(0.32812500000000006, 1.0 / 12);
+  graph.addPoint(13.0 / 48, 0.203125);
+  graph.addPoint(0.328125, -1.0 / 12);
+  graph.addPoint(0.33854166666666663, 0);
+  graph.addSegment(0, 1);
+  graph.addSegment(0, 2);
+  RefinementOptions options;
+  options.MinimumAngle = 9;
+  options.LargestArea = 1.0 / 288;
+  options.ShortestEdge = 1.0 / 96;
+  options.KeepsBorder = true;
+  const Refined refined = refineGraph(graph, options);
+  for (const IdSegment& segment : refined.Mesh.Segments)
+  {
+    if (segment.Constraint == 1)
+    {
+      EXPECT_GE(refined.XY[2 * std::size_t(segment.A)], 0.328125);
+      EXPECT_GE(refined.XY[2 * std::size_t(segment.B)], 0.328125);
+    }
+  }
+  EXPECT_TRUE(isRight(graph, refined, "9"));
+}
+
 TEST(Refine, CrossingSegmentsAreSplit)
 {
   RefinementOptions options = withAngle(28);

@@ -292,6 +292,29 @@ TEST(QualityChecker, RefusesALostPoint)
     mesh, "1 points of the input are inside of the mesh, but no vertices; the first is point 5");
 }
 
+TEST(QualityChecker, RefusesALostPointOnTheBorder)
+{
+  CheckedMesh mesh = grid();
+  mesh.InputXY.insert(mesh.InputXY.end(), { 1, 0 });
+  expectFault(
+    mesh, "1 points of the input are inside of the mesh, but no vertices; the first is point 4");
+}
+
+TEST(QualityChecker, AcceptsABorderThatRoundingLedBeyondAPoint)
+{
+  CheckedMesh mesh; // point 3 is outside of the segment by less than half a unit
+  mesh.InputXY = { 0.1001, 0.0001, 1.3001, 0.4001, 1, 0, 1.0001, 0.30010000000000003, 0.5, 0.9 };
+  mesh.Segments = { { 0, 1 }, { 3, 4 } };
+  mesh.XY = { 0.1001, 0.0001, 1.3001, 0.4001, 1, 0, 0.93727082451262844, 0.2791569415042095,
+    1.1186854122563141, 0.33962847075210478 };
+  mesh.Triangles = { 2, 1, 4, 2, 4, 3, 2, 3, 0 };
+  expectCorrect(mesh);
+  mesh.InputXY[7] -= 0x1p-35; // inside of the segment
+  mesh.Segments.pop_back();
+  expectFault(
+    mesh, "1 points of the input are inside of the mesh, but no vertices; the first is point 3");
+}
+
 TEST(QualityChecker, RefusesAFilledHole)
 {
   CheckedMesh mesh = grid();
