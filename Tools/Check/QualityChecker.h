@@ -112,8 +112,8 @@ struct QualityReport
 ///
 /// - It is a constrained Delaunay mesh: the triangles are counter-clockwise, meet edge to edge, and
 ///   are locally Delaunay except across segments.
-/// - Each segment is a chain of edges, wherever it is inside of the mesh. Split points and crossings
-///   on it were rounded (check::SplitChains::reach()).
+/// - Each segment is a chain of edges, wherever it is inside of the mesh. Its split points and
+///   crossings were rounded (check::SplitChains::reach()).
 /// - The border consists of segments and of edges of the input's convex hull. Whether the right
 ///   parts of the plane were removed is checked at the points of holes only.
 /// - The input's points in the mesh are vertices, except for points outside of a segment at the
