@@ -148,6 +148,7 @@ private:
   void checkTriangles();
   void checkThin();
   void checkListed(std::vector<bool>& isListed);
+  std::vector<bool> mayBeLarge();
   bool isForced(std::size_t triangle) const;
   bool isBelow(std::size_t triangle) const
   {
@@ -336,9 +337,35 @@ void QualityCheck::checkBorder()
   }
 }
 
+/// Returns by triangle whether it is listed, so that it may be above the limit on areas.
+std::vector<bool> QualityCheck::mayBeLarge()
+{
+  std::vector<bool> may(this->triangles(), false);
+  for (std::size_t i = 0; i < this->Mesh.ListedLarge.size(); ++i)
+  {
+    const std::int64_t t = this->Mesh.ListedLarge[i];
+    if (t < 0 || std::size_t(t) >= may.size())
+    {
+      this->Report.BadEntries.add(std::int64_t(i));
+      continue;
+    }
+    may[std::size_t(t)] = true;
+  }
+  for (std::size_t i = 0; this->Mesh.Listed && i < this->Mesh.Listed->size(); ++i)
+  {
+    const auto t = std::size_t((*this->Mesh.Listed)[i].Triangle); // checkListed() reports bad ones
+    if (t < may.size())
+    {
+      may[t] = true;
+    }
+  }
+  return may;
+}
+
 /// Compares all triangles with the bounds, except whether those below the angle are excused.
 void QualityCheck::checkTriangles()
 {
+  const std::vector<bool> mayBeLarge = this->mayBeLarge();
   for (std::size_t t = 0; t < this->triangles(); ++t)
   {
     if (!this->isGood(t))
@@ -365,7 +392,14 @@ void QualityCheck::checkTriangles()
       isLarger(
         corners, this->Mesh.MaxArea({ a.x / 3 + b.x / 3 + c.x / 3, a.y / 3 + b.y / 3 + c.y / 3 })))
     {
-      this->Report.TooLarge.add(std::int64_t(t));
+      if (mayBeLarge[t])
+      {
+        ++this->Report.ExcusedLarge;
+      }
+      else
+      {
+        this->Report.TooLarge.add(std::int64_t(t));
+      }
     }
   }
   this->Report.Below = std::int64_t(this->Below.size());

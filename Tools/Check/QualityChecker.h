@@ -55,6 +55,9 @@ struct CheckedMesh
   /// The triangles below the bound as the refinement has listed them. Without a list, only those
   /// may be below it of which an input angle is proved to be the reason.
   std::optional<std::vector<ListedTriangle>> Listed;
+  /// Indices of the triangles that the refinement has listed as above the limit on areas. These and
+  /// those of Listed may be.
+  std::vector<std::int64_t> ListedLarge;
 };
 
 /// The result of checkQuality().
@@ -93,6 +96,7 @@ struct QualityReport
   std::int64_t Below = 0; ///< triangles with an angle below the bound
   /// Those that are excused: by ThinReason. Only input angles are proved; the others are as listed.
   std::array<std::int64_t, ThinReasons> Excused{};
+  std::int64_t ExcusedLarge = 0; ///< listed triangles that are above the limit on areas
 
   Fault LostSegments;   ///< segments of the input that are no chains of edges
   Fault LostPoints;     ///< points of the input that are in the mesh, but no vertices
@@ -101,7 +105,7 @@ struct QualityReport
   Fault Thin;           ///< triangles below the bound that are not excused
   double ThinAngle = 0; ///< of the first one
   Fault TooLarge;       ///< triangles above the area limit
-  Fault BadEntries;     ///< entries of the list whose triangle does not exist or is listed twice
+  Fault BadEntries;     ///< entries of a list whose triangle does not exist or is listed twice
   Fault NotBelow;       ///< listed triangles with no angle below the bound
   Fault WrongAngles;    ///< listed triangles whose angle differs by more than 1e-6 degrees
   Fault WrongReasons;   ///< listed triangles that no input angle explains, as they claim

@@ -6,7 +6,9 @@
 #include "Commands/PointArguments.h"
 #include "Commands/Report.h"
 #include "Console/Process.h"
+#include "Files/Formats.h"
 #include "Files/IOError.h"
+#include "Files/TextFile.h"
 #include "Meshes/MeshFiles.h"
 #include "Parallel/Sort.h"
 #include "Partitioned/FinishedPieces.h"
@@ -76,6 +78,7 @@ Examples:
   tipp check survey.csv survey.vtp --constraints breaklines.vtp --tie-rule
   tipp check particles.npy tetrahedra.vtu --tie-rule
   tipp check mesh.vtu --quality 30 --max-area 0.1 --constraints lake.poly
+  tipp check bay.14 --quality 30 --size sizes.tif --constraints bay.shp --listed bay.json
 )";
 
 /// The options of `tipp check`.
@@ -456,6 +459,10 @@ CheckReport checkInSpace(const CheckArguments& arguments)
 int runQuality(const CheckArguments& arguments)
 {
   QualityArguments quality = arguments.Quality;
+  const bool isNpy = !quality.Size.empty() && isOpenedBy(quality.Size, Opener::Npy);
+  refuseIf(quality.RasterBounds && !isNpy, "--npy-bounds", "needs --size with an .npy file");
+  refuseIf(isNpy && !quality.RasterBounds, "--size",
+    "has an .npy file, which does not say where it lies; give --npy-bounds");
   quality.Points = arguments.Mesh.empty() ? "" : arguments.Points;
   quality.Mesh = arguments.Mesh.empty() ? arguments.Points : arguments.Mesh;
   quality.Constraints = arguments.Constraints;
@@ -510,6 +517,33 @@ std::string checkAngle(const std::string& text)
   }
 }
 
+/// Adds --size and the options that go with it. `angle`: the option --quality.
+void addSizeOptions(CLI::App& command, QualityArguments& quality, CLI::Option* angle)
+{
+  CLI::Option* const size = command.add_option("--size", quality.Size,
+    "With --quality: the length of edges: a number, or a raster. No triangle may be larger than "
+    "the "
+    "equilateral one with this edge");
+  size->check([](const std::string& text)
+    { return wholeNumber<double>(text) ? checkPositive(text) : std::string(); });
+  size->needs(angle);
+  command.add_option("--min-size", quality.LeastSize, "As of 'tipp mesh': the smallest size")
+    ->check(checkPositive)
+    ->needs(size);
+  command
+    .add_option("--max-size,--max-el", quality.LargestSize, "As of 'tipp mesh': the largest size")
+    ->check(checkPositive)
+    ->needs(size);
+  command
+    .add_flag("--geographic", quality.Geographic,
+      "x and y are degrees of longitude and latitude, and sizes are metres")
+    ->needs(size);
+  addBoxOption(command, "--npy-bounds", quality.RasterBounds,
+    "The .npy file of --size is a raster, the lowest row first, with these outer borders: xmin "
+    "xmax ymin ymax")
+    ->needs(size);
+}
+
 /// Adds --quality and the options that need it. `others` mean nothing with it.
 void addQualityOptions(
   CLI::App& command, QualityArguments& quality, const std::vector<CLI::Option*>& others)
@@ -530,8 +564,10 @@ void addQualityOptions(
   command
     .add_option("--listed", quality.Listed,
       "With --quality: the file of 'tipp mesh --stats', whose list below_bound must have all "
-      "triangles with an angle below the bound, each with its angle and the reason")
+      "triangles with an angle below the bound, each with its angle and the reason, and its list "
+      "above_area all that are larger than allowed")
     ->needs(angle);
+  addSizeOptions(command, quality, angle);
 }
 
 void addOptions(CLI::App& command, CheckArguments& arguments)

@@ -1,20 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/CheckQuality.h"
 
+#include "Check/PixelSizes.h"
 #include "Check/QualityChecker.h"
 #include "Console/Process.h"
 #include "Files/IOError.h"
+#include "Files/TextFile.h"
 #include "Meshes/MeshFiles.h"
+#include "Raster/RasterValues.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <map>
+#include <memory>
 #include <system_error>
 #include <utility>
 
@@ -56,7 +63,8 @@ ListedTriangle parseListed(const std::string& path, const Json& entry, std::size
   return { entry["triangle"].get<std::int64_t>(), entry["angle"].get<double>(), reason->second };
 }
 
-std::vector<ListedTriangle> readListed(const std::string& path)
+/// Reads the lists of the file of --stats. Throws IOError.
+void readListed(const std::string& path, CheckedMesh& mesh)
 {
   std::ifstream file(path);
   if (!file)
@@ -69,12 +77,111 @@ std::vector<ListedTriangle> readListed(const std::string& path)
     throw IOError(path,
       "is no JSON with a list 'below_bound'; give a file that 'tipp mesh --stats' has written.");
   }
-  std::vector<ListedTriangle> listed;
+  mesh.Listed.emplace();
   for (const Json& entry : json["below_bound"])
   {
-    listed.push_back(parseListed(path, entry, listed.size()));
+    mesh.Listed->push_back(parseListed(path, entry, mesh.Listed->size()));
   }
-  return listed;
+  if (!json.contains("above_area"))
+  {
+    return;
+  }
+  for (const Json& entry : json["above_area"])
+  {
+    if (!entry.is_object() || !entry.contains("triangle") || !entry["triangle"].is_number_integer())
+    {
+      throw IOError(path,
+        fmt::format("entry {} of 'above_area' lacks a 'triangle'; give a file that 'tipp mesh "
+                    "--stats' has written.",
+          mesh.ListedLarge.size()));
+    }
+    mesh.ListedLarge.push_back(entry["triangle"].get<std::int64_t>());
+  }
+}
+
+/// Lengths of edges that 'tipp mesh' may not exceed. It computes sizes at the nodes of a lattice,
+/// which are at most half the smallest size apart or, where that would be more nodes than its
+/// limit, 1/4000 of the domain's longer side. It interpolates between these. So wherever the
+/// lattice lies, its size is at most the largest of the raster so near.
+class LargestSize
+{
+public:
+  LargestSize(const QualityArguments& arguments, const std::vector<double>& xy)
+    : Arguments(arguments)
+    , Number(wholeNumber<double>(arguments.Size))
+  {
+    if (!this->Number)
+    {
+      this->readRaster(xy);
+    }
+  }
+
+  /// Returns the largest area of a triangle with this centroid.
+  double areaAt(check::Position centroid) const
+  {
+    const double size = this->limited(this->Number ? *this->Number : this->Pixels->at(centroid));
+    const double length = this->Arguments.Geographic
+      ? size / metersPerDegree / std::sqrt(this->leastCosine(centroid.y))
+      : size;
+    return std::sqrt(3.0) / 4 * length * length * (1 + rounding);
+  }
+
+private:
+  static constexpr double metersPerDegree = 6371000 * 3.14159265358979323846 / 180;
+  static constexpr double rounding = 1e-9; // of the sizes' interpolation
+
+  double limited(double size) const
+  {
+    size = this->Arguments.LargestSize ? std::min(size, *this->Arguments.LargestSize) : size;
+    return this->Arguments.LeastSize ? std::max(size, *this->Arguments.LeastSize) : size;
+  }
+
+  /// The least cosine of a latitude in reach.
+  double leastCosine(double latitude) const
+  {
+    constexpr double degree = 3.14159265358979323846 / 180;
+    const double farthest = std::min(90.0, std::fabs(latitude) + this->Reach.y);
+    return std::max(1e-9, std::cos(farthest * degree));
+  }
+
+  void readRaster(const std::vector<double>& xy);
+
+  const QualityArguments& Arguments;
+  std::optional<double> Number;
+  std::optional<check::PixelSizes> Pixels;
+  check::Position Reach{ 0, 0 }; ///< how far the raster's pixels count, in x and y
+};
+
+/// Throws IOError.
+void LargestSize::readRaster(const std::vector<double>& xy)
+{
+  const std::string& path = this->Arguments.Size;
+  const auto& bounds = this->Arguments.RasterBounds;
+  const std::unique_ptr<RasterValues> raster =
+    bounds ? openNpyRaster(path, *bounds) : openRasterValues(path);
+  const RasterGrid& grid = raster->grid();
+  std::vector<double> sizes(std::size_t(grid.pixels()));
+  raster->read({ 0, 0, grid.Columns, grid.Rows }, sizes.data());
+  const Point2 first = grid.firstCentre();
+  this->Pixels.emplace(std::move(sizes), std::size_t(grid.Columns),
+    check::Position{ first.x, first.y }, check::Position{ grid.Pixel[0], grid.Pixel[1] });
+  double spacing = this->limited(this->Pixels->smallest()) / 2;
+  check::Position low{ HUGE_VAL, HUGE_VAL };
+  check::Position high{ -HUGE_VAL, -HUGE_VAL };
+  for (std::size_t i = 0; i + 1 < xy.size(); i += 2)
+  {
+    low = { std::min(low.x, xy[i]), std::min(low.y, xy[i + 1]) };
+    high = { std::max(high.x, xy[i]), std::max(high.y, xy[i + 1]) };
+  }
+  if (this->Arguments.Geographic)
+  {
+    this->Reach.y = 1; // a degree is farther than a lattice's spacing
+    spacing /= metersPerDegree * std::min(this->leastCosine(low.y), this->leastCosine(high.y));
+  }
+  constexpr double steps = 4000; // in each direction of a lattice with the most nodes
+  spacing = std::max(spacing, std::max(high.x - low.x, high.y - low.y) / steps);
+  this->Reach = { spacing, spacing };
+  this->Pixels->spread(this->Reach);
 }
 
 /// Adds the points and the constraints' points, segments and holes.
@@ -142,6 +249,10 @@ void printQuality(const QualityReport& report)
     report.Below, report.MinAngle, excused(ThinReason::InputAngle),
     excused(ThinReason::ShortestEdge), excused(ThinReason::Rounding),
     excused(ThinReason::KeptSegments), excused(ThinReason::MostPoints));
+  if (report.ExcusedLarge != 0)
+  {
+    fmt::print("  {} listed triangles above the limit on areas\n", report.ExcusedLarge);
+  }
   fmt::print("  smallest angles in degrees, and numbers of triangles:\n");
   for (std::size_t bin = 0; bin < QualityReport::Bins; ++bin)
   {
@@ -185,13 +296,20 @@ int checkQualityOfFiles(const QualityArguments& arguments)
   CheckedMesh mesh = readRefined(arguments);
   readInput(arguments, mesh);
   mesh.MinAngle = arguments.MinAngle;
-  if (arguments.MaxArea)
+  std::optional<LargestSize> size;
+  if (!arguments.Size.empty())
   {
-    mesh.MaxArea = [area = *arguments.MaxArea](check::Position) { return area; };
+    size.emplace(arguments, mesh.XY);
+  }
+  if (arguments.MaxArea || size)
+  {
+    const double area = arguments.MaxArea.value_or(std::numeric_limits<double>::infinity());
+    mesh.MaxArea = [area, &size](check::Position centroid)
+    { return size ? std::min(area, size->areaAt(centroid)) : area; };
   }
   if (!arguments.Listed.empty())
   {
-    mesh.Listed = readListed(arguments.Listed);
+    readListed(arguments.Listed, mesh);
   }
   const QualityReport report = checkQuality(mesh);
   fmt::print("{} points, {} triangles, {} segments: {}\n", report.Mesh.Points, report.Mesh.Cells,

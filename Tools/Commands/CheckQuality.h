@@ -4,6 +4,7 @@
 
 #include "Constraints/ReadConstraintFile.h"
 #include "Points/ReadPoints.h"
+#include "Predicates/Geometry.h"
 
 #include <optional>
 #include <string>
@@ -21,6 +22,12 @@ struct QualityArguments
   PointOptions Columns;
   std::string MinAngle; ///< in degrees, as it was given
   std::optional<double> MaxArea;
+  std::string Size; ///< a number, or the path of a raster; empty: no limit
+  std::optional<double> LeastSize;
+  std::optional<double> LargestSize;
+  bool Geographic = false; ///< x and y are degrees, and sizes are metres
+  /// The outer pixel borders of Size if it is an .npy file.
+  std::optional<Box2> RasterBounds;
   std::string Listed; ///< path of a file of --stats; empty: none
 };
 

@@ -836,19 +836,9 @@ void addModel(CLI::App& command, MeshArguments& arguments)
     "The column of the points of --depth (default: depth, or z with --positive-up)");
   command.add_flag("--positive-up", arguments.Sizes.DepthIsElevation,
     "The values of --depth are elevations, positive upwards");
-  command
-    .add_option_function<std::vector<double>>(
-      "--npy-bounds",
-      [&arguments](const std::vector<double>& bounds)
-      {
-        const Box2 box = boxOfVtkBounds<2>(bounds.data());
-        refuseIf(box.isEmpty(), "--npy-bounds",
-          "is " + inWords(inSpace(box)) + ", which is no range; give xmin xmax ymin ymax");
-        arguments.Sizes.RasterBounds = box;
-      },
-      "The .npy files of --size and --depth are rasters, the lowest row first, with these outer "
-      "borders: xmin xmax ymin ymax")
-    ->expected(4);
+  addBoxOption(command, "--npy-bounds", arguments.Sizes.RasterBounds,
+    "The .npy files of --size and --depth are rasters, the lowest row first, with these outer "
+    "borders: xmin xmax ymin ymax");
   command.add_flag("--depth-at-nodes", arguments.DepthsAtNodes,
     "Interpolate a raster at the nodes; otherwise a node gets the mean over its cell");
   command.add_option(

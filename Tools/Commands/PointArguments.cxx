@@ -189,21 +189,27 @@ void addPointOptions(CLI::App& command, PointOptions& options)
     ->check(checkThinning);
 }
 
+CLI::Option* addBoxOption(CLI::App& command, const std::string& name, std::optional<Box2>& box,
+  const std::string& description)
+{
+  return command
+    .add_option_function<std::vector<double>>(
+      name,
+      [name, &box](const std::vector<double>& bounds)
+      {
+        box = boxOfVtkBounds<2>(bounds.data());
+        refuseIf(box->isEmpty(), name,
+          "is " + inWords(inSpace(*box)) + ", which is no range; give xmin xmax ymin ymax");
+      },
+      description)
+    ->expected(4);
+}
+
 void addBoundsOption(CLI::App& command, PointOptions& options)
 {
-  command
-    .add_option_function<std::vector<double>>(
-      "--bounds",
-      [&options](const std::vector<double>& bounds)
-      {
-        options.Region = boxOfVtkBounds<2>(bounds.data());
-        refuseIf(options.Region->isEmpty(), "--bounds",
-          "is " + inWords(inSpace(*options.Region)) +
-            ", which is no range; give xmin xmax ymin ymax");
-      },
-      "Read only the points in this range: xmin xmax ymin ymax. Of LAS, LAZ and COPC files the "
-      "parts outside of it are not read")
-    ->expected(4);
+  addBoxOption(command, "--bounds", options.Region,
+    "Read only the points in this range: xmin xmax ymin ymax. Of LAS, LAZ and COPC files the parts "
+    "outside of it are not read");
 }
 
 void requireInBounds(const std::vector<std::string>& files, const PointOptions& options,

@@ -76,6 +76,10 @@ std::string paragraph(const std::string& title, const std::string& text);
 /// Adds the options that select the points and columns to read.
 void addPointOptions(CLI::App& command, PointOptions& options);
 
+/// Adds an option of four numbers, xmin xmax ymin ymax. A box without area is refused.
+CLI::Option* addBoxOption(CLI::App& command, const std::string& name, std::optional<Box2>& box,
+  const std::string& description);
+
 /// Adds --bounds, which limits the points that are read.
 void addBoundsOption(CLI::App& command, PointOptions& options);
 

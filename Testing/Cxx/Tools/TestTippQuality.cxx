@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The command 'tipp check' with --quality.
+#include "NpyText.h"
 #include "RunTipp.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -51,6 +54,12 @@ protected:
     this->expect(1, words, { "--quality", "30", "--listed", "bad.json" });
   }
 
+  void writeNpy(
+    const std::string& name, const std::string& shape, const std::vector<double>& values) const
+  {
+    this->Folder.file(name, npyBytes(npyHeader("<f8", shape), bytesOf(values)));
+  }
+
   const TemporaryFolder Folder;
 };
 
@@ -81,6 +90,64 @@ TEST_F(TippQuality, ReadsTheListOfExceptions)
     R"({"below_bound": [{"triangle": 0, "angle": 26.5650512, "reason": "shortest edge"}]})");
   this->expect(0, "0 by input angles (proved); as listed, 1 by the shortest edge, 0 by rounding",
     { "--quality", "30", "--listed", "listed.json", "--constraints", "square.poly" });
+}
+
+TEST_F(TippQuality, ExcusesListedTrianglesAboveTheArea)
+{
+  this->Folder.file("large.json",
+    R"({"below_bound": [{"triangle": 0, "angle": 26.5650512, "reason": "shortest edge"}],
+        "above_area": [{"triangle": 2, "angle": 33.7, "area": 6, "reason": "shortest edge"}]})");
+  this->expect(0, "1 listed triangles above the limit on areas",
+    { "--quality", "30", "--max-area", "5.9", "--listed", "large.json" });
+  this->Folder.file(
+    "beyond.json", R"({"below_bound": [], "above_area": [{"triangle": 4, "area": 6}]})");
+  this->expect(
+    1, "entries of the list name no triangle", { "--quality", "20", "--listed", "beyond.json" });
+  this->expectBadList(
+    R"({"below_bound": [], "above_area": [{"area": 6}]})", "entry 0 of 'above_area' lacks");
+}
+
+TEST_F(TippQuality, ComparesWithANumberAsSize)
+{
+  // The largest area is 6, that of an equilateral triangle with the edge 3.7224.
+  this->expect(0, "correct", { "--quality", "20", "--size", "3.723" });
+  this->expect(
+    1, "1 triangles are above the limit on areas", { "--quality", "20", "--size", "3.722" });
+  this->expect(0, "correct", { "--quality", "20", "--size", "1", "--min-size", "3.723" });
+  this->expect(1, "above the limit", { "--quality", "20", "--size", "9", "--max-size", "3.722" });
+  // A degree of latitude has 111,195 m.
+  this->expect(0, "correct", { "--quality", "20", "--size", "414000", "--geographic" });
+  this->expect(1, "above the limit", { "--quality", "20", "--size", "413000", "--geographic" });
+}
+
+TEST_F(TippQuality, ComparesWithARasterOfSizes)
+{
+  std::vector<double> sizes;
+  for (int i = 0; i < 60 * 40; ++i)
+  {
+    sizes.push_back(0.2 + 0.03 * std::hypot(i % 60 - 30, i / 60 - 20));
+  }
+  this->writeNpy("sizes.npy", "(40, 60)", sizes);
+  std::for_each(sizes.begin(), sizes.end(), [](double& size) { size *= 0.8; });
+  this->writeNpy("smaller.npy", "(40, 60)", sizes);
+  const Words make{ "mesh", "square.poly", "-o", "sized.vtu", "--size", "sizes.npy", "--npy-bounds",
+    "0", "4", "0", "4" };
+  ASSERT_EQ(0, runTipp(this->Folder, make).ExitCode);
+  Words against{ "--quality", "30", "--constraints", "square.poly", "--npy-bounds", "0", "4", "0",
+    "4", "--size", "sizes.npy" };
+  this->expect(0, "correct", against, { "sized.vtu" });
+  against.back() = "smaller.npy";
+  this->expect(1, "above the limit on areas", against, { "sized.vtu" });
+}
+
+TEST_F(TippQuality, SizesOfNpyFilesNeedBounds)
+{
+  this->writeNpy("sizes.npy", "(1, 1)", { 3 });
+  this->expect(2, "give --npy-bounds", { "--quality", "20", "--size", "sizes.npy" });
+  this->expect(2, "needs --size with an .npy file",
+    { "--quality", "20", "--size", "3", "--npy-bounds", "0", "1", "0", "1" });
+  this->expect(1, "has no extension that tells a kind of raster",
+    { "--quality", "20", "--size", "square.poly" });
 }
 
 TEST_F(TippQuality, CountsWhatTheUserHasForbidden)
