@@ -136,6 +136,23 @@ std::vector<std::int64_t> ConstraintRoutes::borderNear() const
   return near;
 }
 
+/// Returns whether a position, outside of the mesh, may be on its inner side only because rounding
+/// has led an edge of the border at the vertex beyond it.
+bool ConstraintRoutes::isAtBorder(std::int64_t vertex, Position p) const
+{
+  const MeshEdges& mesh = this->Setting.Mesh;
+  const Position from = mesh.at(vertex);
+  bool isAt = false;
+  mesh.visitNeighbors(vertex,
+    [&](std::int64_t next)
+    {
+      const bool isBorder = mesh.leftOf(vertex, next) == None || mesh.leftOf(next, vertex) == None;
+      isAt =
+        isAt || (isBorder && SnappedLine(from, mesh.at(next), this->Setting.WideReach).reaches(p));
+    });
+  return isAt;
+}
+
 /// Adds steps over gaps, in which the constraint is outside of the mesh. `border`: borderNear().
 void ConstraintRoutes::addGaps(std::size_t from, const std::vector<std::int64_t>& border)
 {
@@ -144,8 +161,10 @@ void ConstraintRoutes::addGaps(std::size_t from, const std::vector<std::int64_t>
   const Position here = this->Nodes[from].At;
   const auto canLead = [&](std::int64_t next, Position there)
   {
-    return (vertex == None || !mesh.entersMesh(vertex, there)) &&
-      (next == None || !mesh.entersMesh(next, here));
+    return (vertex == None || !mesh.entersMesh(vertex, there) ||
+             (next == None && this->isAtBorder(vertex, there))) &&
+      (next == None || !mesh.entersMesh(next, here) ||
+        (vertex == None && this->isAtBorder(next, here)));
   };
   // A gap may leave out border vertices only beside its ends, where the constraint may have been
   // led through the others.

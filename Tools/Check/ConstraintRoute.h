@@ -138,6 +138,7 @@ private:
   bool areBeside(Position p, Position q) const;
   std::size_t nodeOf(std::int64_t vertex);
   void addEdges(std::size_t from);
+  bool isAtBorder(std::int64_t vertex, Position p) const;
   void addGaps(std::size_t from, const std::vector<std::int64_t>& border);
   std::vector<std::int64_t> borderNear() const;
   void markNodesThatReachEnd();

@@ -162,7 +162,10 @@ private:
   const MeshEdges Edges;
   check::InputAngles Angles;
   check::RoundedBorder Border;
-  std::vector<FixedEdge> Fixed;   ///< the chains' edges, sorted
+  std::vector<FixedEdge> Fixed; ///< the chains' edges, sorted
+  /// The edges of all chains that segments may have, sorted: of segments at the distance of
+  /// rounding, each may have the chain of the other.
+  std::vector<FixedEdge> MayBeFixed;
   std::vector<std::size_t> Below; ///< triangles with an angle below the bound, in order
   QualityReport Report;
 };
@@ -192,6 +195,9 @@ void QualityCheck::addChain(Position a, Position b, const check::Route& route)
 void QualityCheck::checkSegments()
 {
   check::SplitChains chains(this->Edges);
+  const auto mayBeFixed = [this](std::int64_t from, std::int64_t to) {
+    this->MayBeFixed.push_back({ std::min(from, to), std::max(from, to) });
+  };
   const auto points = std::int64_t(this->Mesh.InputXY.size() / 2);
   for (std::size_t i = 0; i < this->Mesh.Segments.size(); ++i)
   {
@@ -207,7 +213,7 @@ void QualityCheck::checkSegments()
     {
       continue; // needs no chain
     }
-    const auto route = chains.find(a, b);
+    const auto route = chains.find(a, b, mayBeFixed);
     if (route)
     {
       this->addChain(a, b, *route);
@@ -219,13 +225,16 @@ void QualityCheck::checkSegments()
   }
   for (const auto& [a, b] : this->hullEdges())
   {
-    if (const auto route = chains.find(a, b))
+    if (const auto route = chains.find(a, b, mayBeFixed))
     {
       this->addChain(a, b, *route);
     }
   }
-  std::sort(this->Fixed.begin(), this->Fixed.end());
-  this->Fixed.erase(std::unique(this->Fixed.begin(), this->Fixed.end()), this->Fixed.end());
+  for (std::vector<FixedEdge>* const edges : { &this->Fixed, &this->MayBeFixed })
+  {
+    std::sort(edges->begin(), edges->end());
+    edges->erase(std::unique(edges->begin(), edges->end()), edges->end());
+  }
   this->Angles.finish();
   this->Border.finish();
 }
@@ -320,7 +329,7 @@ void QualityCheck::checkBorder()
     [&](std::int64_t from, std::int64_t to)
     {
       const FixedEdge edge{ std::min(from, to), std::max(from, to) };
-      if (!std::binary_search(this->Fixed.begin(), this->Fixed.end(), edge))
+      if (!std::binary_search(this->MayBeFixed.begin(), this->MayBeFixed.end(), edge))
       {
         open.push_back(edge);
       }

@@ -58,23 +58,13 @@ Position SplitChains::reach(Position a, Position b)
     part * std::max(std::fabs(a.y), std::fabs(b.y)) };
 }
 
-std::optional<Route> SplitChains::find(Position a, Position b)
+std::optional<Route> SplitChains::bestOf(const ConstraintRoutes& routes) const
 {
-  this->Setting.WideReach = reach(a, b);
-  const ConstraintRoutes routes(this->Setting, a, b);
-  if (!routes.exist())
-  {
-    return std::nullopt;
-  }
   const bool areSeveral = routes.areSeveral();
   const auto gain = [&](std::int64_t from, std::int64_t to) -> std::int64_t
   { return areSeveral && this->Mesh.needsConstraint(from, to, false, true) ? 1 : 0; };
   Route route = routes.best(gain, RoutePreference::Gain);
-  if (this->crossesMesh(route))
-  {
-    return std::nullopt;
-  }
-  return route;
+  return this->crossesMesh(route) ? std::nullopt : std::make_optional(std::move(route));
 }
 
 /// Returns whether a gap of the route leads through triangles. Its ends have been tested: a gap

@@ -29,7 +29,19 @@ public:
   /// within reach() of the segment. Where the segment is outside of the mesh, the chain has a gap:
   /// an end that is no vertex is MeshEdges::None. Of several chains, returns the one with the most
   /// edges that are not locally Delaunay or have one triangle only.
-  std::optional<Route> find(Position a, Position b);
+  /// Calls visit(from, to) for the edges of all such chains.
+  template <typename Visit>
+  std::optional<Route> find(Position a, Position b, const Visit& visit)
+  {
+    this->Setting.WideReach = reach(a, b);
+    const ConstraintRoutes routes(this->Setting, a, b);
+    std::optional<Route> chain = routes.exist() ? this->bestOf(routes) : std::nullopt;
+    if (chain)
+    {
+      routes.visitEdges(visit);
+    }
+    return chain;
+  }
 
   /// Returns how far in x and y vertices may lie from a segment: 2^-40 of the largest coordinate of
   /// its ends along that axis.
@@ -42,6 +54,7 @@ private:
   {
     return a.front().x < b.front().x;
   }
+  std::optional<Route> bestOf(const ConstraintRoutes& routes) const;
   bool crossesMesh(const Route& route) const;
   bool crossesBorder(Position from, Position to, const SnappedLine& line) const;
 
