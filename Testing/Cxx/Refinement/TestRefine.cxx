@@ -182,6 +182,40 @@ TEST(Refine, SplitPointsAreInTheBoxOfTheirSegment)
   EXPECT_TRUE(isRight(graph, refined, "9"));
 }
 
+TEST(Refine, SegmentsAtTheDistanceOfRoundingAreChains)
+{
+  LineGraph graph; // points 1 and 4 are neighbouring doubles
+  graph.XY = { 0.92307692307692313, -0.38461538461538475, 0.59999999999999987, -0.80000000000000016,
+    0.96923076923076956, -0.2461538461538462, -0.60000000000000009, -0.80000000000000016,
+    0.6000000000000002, -0.80000000000000016 };
+  graph.Segments = { { 2, 4 }, { 1, 2 }, { 3, 0 }, { 1, 3 }, { 0, 2 }, { 0, 4 } };
+  RefinementOptions options;
+  options.MinimumAngle = 5;
+  options.ShortestEdge = 0.03;
+  options.IsEnclosed = true;
+  const Refined refined = refineGraph(graph, options);
+  EXPECT_LT(3u, refined.Mesh.triangleCount());
+  EXPECT_TRUE(isRight(graph, refined, "5"));
+}
+
+TEST(Refine, ASegmentMayEndBesideTheBorder)
+{
+  LineGraph graph; // a segment is outside of another one, at the border, by less than rounding
+  graph.XY = { 0.003001, 0.001001, 0.001001, 1e-06, 0.005001, 0.002001, 0.001001, 0.001001,
+    0.005001, 0.003001, 1e-06, 1e-06, 0.002001, 1e-06, 0.002001, 0.002001, 0.004001, 0.002001,
+    0.002001, 0.001001, 0.003001, 1e-06, 0.004001, 0.001001, 0.003001, 0.002001 };
+  graph.Segments = { { 1, 6 }, { 4, 8 }, { 10, 4 }, { 5, 0 }, { 0, 4 }, { 7, 10 }, { 6, 0 },
+    { 10, 6 }, { 6, 2 } };
+  RefinementOptions options;
+  options.MinimumAngle = 14;
+  options.LargestArea = 7.03125e-8;
+  options.ShortestEdge = 0.003 / 256;
+  options.IsEnclosed = true;
+  const Refined refined = refineGraph(graph, options);
+  EXPECT_LT(20u, refined.Mesh.triangleCount());
+  EXPECT_TRUE(isRight(graph, refined, "14"));
+}
+
 TEST(Refine, CrossingSegmentsAreSplit)
 {
   RefinementOptions options = withAngle(28);
