@@ -15,24 +15,34 @@
 namespace tipp
 {
 
-/// Of the eight ascending values at `ascending`, returns the size in bytes of those that are at
-/// most `value`, which must be lower than 2^16.
+/// Of `Count` ascending values at `ascending`, 8 or 16, returns the size in bytes of those that are
+/// at most `value`, which must be lower than 2^16.
+template <unsigned Count>
 [[gnu::always_inline]] inline unsigned bytesAtMost(
   const std::uint16_t* ascending, std::uint32_t value)
 {
+  static_assert(Count == 8 || Count == 16, "one or two vectors are compared");
 #ifdef __SSE2__
-  const __m128i values = _mm_loadu_si128(reinterpret_cast<const __m128i*>(ascending));
   const __m128i limit = _mm_set1_epi16(short(value));
   // SSE2 has no unsigned comparison: a saturated difference of 0 means at most.
-  const __m128i atMost = _mm_cmpeq_epi16(_mm_subs_epu16(values, limit), _mm_setzero_si128());
-  return unsigned(__builtin_ctz(~unsigned(_mm_movemask_epi8(atMost))));
-#else
-  unsigned count = 0;
-  for (int i = 0; i < 8; ++i)
+  const auto atMost = [&](const std::uint16_t* eight)
   {
-    count += ascending[i] <= value ? 2U : 0U;
+    const __m128i values = _mm_loadu_si128(reinterpret_cast<const __m128i*>(eight));
+    return _mm_cmpeq_epi16(_mm_subs_epu16(values, limit), _mm_setzero_si128());
+  };
+  if constexpr (Count == 16)
+  {
+    const __m128i both = _mm_packs_epi16(atMost(ascending), atMost(ascending + 8));
+    return 2 * unsigned(__builtin_ctz(~unsigned(_mm_movemask_epi8(both))));
   }
-  return count;
+  return unsigned(__builtin_ctz(~unsigned(_mm_movemask_epi8(atMost(ascending)))));
+#else
+  unsigned bytes = 0;
+  for (unsigned i = 0; i < Count; ++i)
+  {
+    bytes += ascending[i] <= value ? 2U : 0U;
+  }
+  return bytes;
 #endif
 }
 
@@ -41,9 +51,10 @@ namespace tipp
 /// counts, at the times that the LAZ specification fixes. The model of a bit has a precision and
 /// times of its own: only if MayBeBit can a model be one.
 ///
-/// A symbol is found without a loop whose length the processor would mispredict: a table gives a
-/// symbol from the highest bits, and one vector comparison of the next eight limits gives the
-/// right one, except in long tails of rare symbols.
+/// A symbol is found without a loop whose length the processor would mispredict. In a large
+/// alphabet, a table gives a symbol from the highest bits, and one vector comparison of the next
+/// eight limits gives the right one, except in long tails of rare symbols. In a small one, the
+/// first 16 limits are compared, without waiting for a table or taking its room in the cache.
 template <unsigned Capacity, bool MayBeBit = false>
 class SymbolModel
 {
@@ -87,9 +98,9 @@ public:
     unsigned bytes = 0;
     do
     {
-      bytes = bytesAtMost(limit + 1, target);
+      bytes = bytesAtMost<Compared>(limit + 1, target);
       limit = reinterpret_cast<std::uint16_t*>(reinterpret_cast<char*>(limit) + bytes);
-    } while (bytes == 16); // the limits end with 0xFFFF, which no target reaches
+    } while (bytes == 2 * Compared); // the limits end with 0xFFFF, which no target reaches
     return limit;
   }
 
@@ -127,8 +138,9 @@ public:
 private:
   static constexpr unsigned symbolPrecision = 15;
   static constexpr unsigned bitPrecision = 13;
-  static constexpr unsigned CountsAt = Capacity + 8; ///< limits and padding precede the counts
-  static constexpr bool HasTable = Capacity > 16;
+  static constexpr bool HasTable = Capacity > 33;
+  static constexpr unsigned Compared = HasTable || Capacity <= 8 ? 8 : 16; ///< limits at once
+  static constexpr unsigned CountsAt = Capacity + Compared; ///< after limits and padding
   static constexpr unsigned BucketBits = Capacity >= 64 ? 6 : 5;
   static constexpr unsigned BucketShift = symbolPrecision - BucketBits;
   /// Targets are up to 32831, because a length is rounded down before it is divided.
@@ -210,8 +222,8 @@ private:
   std::uint32_t Symbols = 0;
   std::uint32_t Precision = symbolPrecision;
   std::array<Index, HasTable ? Buckets : 1> First;
-  /// The lower limits, then 0xFFFF for those that there are not and eight more, then the counts:
-  /// one array, in which a limit's address leads to the count.
+  /// The lower limits, then 0xFFFF up to the counts: one array, in which a limit's address leads to
+  /// the count.
   std::array<std::uint16_t, CountsAt + Capacity> Numbers;
 };
 
