@@ -106,20 +106,32 @@ public:
   /// Decodes the next time. Returns false if it is damaged.
   bool decode(RangeDecoder& decoder)
   {
+    this->decodeSymbol(decoder);
+    return this->decodeRest(decoder);
+  }
+
+  /// The same in two steps: the symbol that every time has, then what it needs.
+  [[gnu::always_inline]] void decodeSymbol(RangeDecoder& decoder)
+  {
+    this->Symbol = int(this->Sequences[this->Current].Step == 0 ? decoder.symbol(this->AfterZero)
+                                                                : decoder.symbol(this->Multiples));
+  }
+  bool decodeRest(RangeDecoder& decoder)
+  {
     // An encoder changes the sequence once, since it then finds the time in the new one.
     constexpr int mostChanges = 4;
-    for (int i = 0; i < mostChanges; ++i)
+    for (int changes = 1;; ++changes)
     {
       Sequence& sequence = this->Sequences[this->Current];
       const int change = sequence.Step == 0 ? this->decodeAfterZero(decoder, sequence)
                                             : this->decodeMultiple(decoder, sequence);
-      if (change == 0)
+      if (change == 0 || changes == mostChanges)
       {
-        return true;
+        return change == 0;
       }
       this->Current = (this->Current + unsigned(change)) & 3U;
+      this->decodeSymbol(decoder);
     }
-    return false;
   }
 
   std::uint64_t time() const { return this->Sequences[this->Current].Time; }
@@ -178,7 +190,7 @@ private:
   /// Returns by how many sequences to go on, if the time is of another one.
   int decodeAfterZero(RangeDecoder& decoder, Sequence& sequence)
   {
-    const int symbol = int(decoder.symbol(this->AfterZero)) - int(same);
+    const int symbol = this->Symbol - int(same);
     if (symbol > 1)
     {
       return symbol - 1;
@@ -198,7 +210,7 @@ private:
 
   int decodeMultiple(RangeDecoder& decoder, Sequence& sequence)
   {
-    int symbol = int(decoder.symbol(this->Multiples));
+    int symbol = this->Symbol;
     if (HasSame && symbol >= huge)
     {
       symbol = symbol == huge ? -1 : symbol - 1;
@@ -324,6 +336,7 @@ private:
   SymbolModel<5 + same> AfterZero;        ///< and after a difference of 0
   IntegerCoder<32, 9> Integers;
   std::array<Sequence, 4> Sequences;
+  int Symbol = 0; ///< of decodeSymbol(), for decodeRest()
   unsigned Current = 0;
   unsigned Next = 0;
 };

@@ -68,29 +68,48 @@ public:
     this->Z.reset();
   }
 
-  /// The steps of a point, in their order.
-  [[gnu::always_inline]] void decodeAttributes(RangeDecoder& decoder)
+  /// The steps of a point, in their order, each of about one symbol.
+  [[gnu::always_inline]] void decodeChanges(RangeDecoder& decoder)
   {
-    std::uint8_t* const last = this->Last.data();
-    const unsigned changes = decoder.symbol(this->Changes);
-    if (changes & 32U)
+    this->Changed = decoder.symbol(this->Changes);
+  }
+
+  [[gnu::always_inline]] void decodeReturns(RangeDecoder& decoder)
+  {
+    std::uint8_t& last = this->Last[14];
+    if (this->Changed & 32U)
     {
-      last[14] = std::uint8_t(decoder.symbol(this->Returns.of(last[14])));
+      last = std::uint8_t(decoder.symbol(this->Returns.of(last)));
     }
-    const unsigned returns = last[14] & 63U;
-    const unsigned pair = contexts10.Pair[returns];
-    if (changes & 16U)
-    {
-      this->LastIntensity[pair] = std::uint16_t(
-        this->Intensities.decode(decoder, this->LastIntensity[pair], std::min(pair, 3U)));
-    }
-    setValue(last + 12, this->LastIntensity[pair]);
-    if (changes & 15U)
-    {
-      this->decodeOthers(decoder, changes);
-    }
-    this->Pair = pair;
+    const unsigned returns = last & 63U;
+    this->Pair = contexts10.Pair[returns];
     this->Single = returns >> 3 == 1 ? 1 : 0;
+  }
+
+  [[gnu::always_inline]] void decodeWidthOfIntensity(RangeDecoder& decoder)
+  {
+    if (this->Changed & 16U)
+    {
+      this->Intensities.decodeWidth(decoder, std::min(this->Pair, 3U));
+    }
+  }
+
+  [[gnu::always_inline]] void decodeIntensity(RangeDecoder& decoder)
+  {
+    std::uint16_t& intensity = this->LastIntensity[this->Pair];
+    if (this->Changed & 16U)
+    {
+      intensity = std::uint16_t(this->Intensities.decodeCorrection(decoder, intensity));
+    }
+    setValue(&this->Last[12], intensity);
+  }
+
+  [[gnu::always_inline]] void decodeOthers(RangeDecoder& decoder)
+  {
+    if (this->Changed & 15U)
+    {
+      this->decodeChangedOthers(decoder);
+    }
   }
 
   [[gnu::always_inline]] void decodeWidthX(RangeDecoder& decoder)
@@ -138,8 +157,9 @@ public:
   }
 
 private:
-  void decodeOthers(RangeDecoder& decoder, unsigned changes)
+  void decodeChangedOthers(RangeDecoder& decoder)
   {
+    const unsigned changes = this->Changed;
     std::uint8_t* const last = this->Last.data();
     if (changes & 8U)
     {
@@ -166,8 +186,9 @@ private:
     setValue(&this->Last[at], valueAt<std::uint32_t>(&this->Last[at]) + std::uint32_t(step));
   }
 
-  unsigned Pair = 0;   ///< context of the point's returns
-  unsigned Single = 0; ///< 1: it is the only one
+  unsigned Changed = 0; ///< attributes that differ from the last point's, as bits
+  unsigned Pair = 0;    ///< context of the point's returns
+  unsigned Single = 0;  ///< 1: it is the only one
   std::array<std::uint8_t, 20> Last{};
   std::array<StreamingMedian, 16> MedianX;
   std::array<StreamingMedian, 16> MedianY;
@@ -301,37 +322,20 @@ private:
   [[gnu::always_inline]] static void decodeItem(
     std::array<Stream, Count>& streams, std::size_t number)
   {
-    if (streams.front().Chunk.Items[number].Item.What == LazItem::Kind::Point10)
+    const LazItem::Kind what = streams.front().Chunk.Items[number].Item.What;
+    if (what == LazItem::Kind::Point10)
     {
-      std::array<Point10Decoder*, Count> points;
-      for (std::size_t i = 0; i < Count; ++i)
-      {
-        points[i] = streams[i].Chunk.Items[number].Point.get();
-      }
-      const auto each = [&](const auto& step)
-      {
-        step(*points[0], streams[0].Decoder);
-        if constexpr (Count > 1)
-        {
-          step(*points[1], streams[1].Decoder);
-        }
-      };
-      each([](Point10Decoder& p, RangeDecoder& decoder) { p.decodeAttributes(decoder); });
-      each([](Point10Decoder& p, RangeDecoder& decoder) { p.decodeWidthX(decoder); });
-      each([](Point10Decoder& p, RangeDecoder& decoder) { p.decodeX(decoder); });
-      each([](Point10Decoder& p, RangeDecoder& decoder) { p.decodeWidthY(decoder); });
-      each([](Point10Decoder& p, RangeDecoder& decoder) { p.decodeY(decoder); });
-      each([](Point10Decoder& p, RangeDecoder& decoder) { p.decodeWidthZ(decoder); });
-      each([](Point10Decoder& p, RangeDecoder& decoder) { p.decodeZ(decoder); });
-      for (std::size_t i = 0; i < Count; ++i)
-      {
-        points[i]->store(streams[i].Record + streams[i].Chunk.Items[number].Item.Offset);
-      }
+      decodePoints(streams, number);
       return;
     }
     if constexpr (Count > 1)
     {
-      if (streams.front().Chunk.Items[number].Item.What == LazItem::Kind::Colour12)
+      if (what == LazItem::Kind::Time11)
+      {
+        decodeTwoTimes(streams, number);
+        return;
+      }
+      if (what == LazItem::Kind::Colour12)
       {
         decodeTwoColours(streams, number);
         return;
@@ -342,6 +346,56 @@ private:
       PointwiseItem& item = stream.Chunk.Items[number];
       stream.IsGood =
         decodeItem(stream.Decoder, item, stream.Record + item.Item.Offset) && stream.IsGood;
+    }
+  }
+
+  template <std::size_t Count>
+  [[gnu::always_inline]] static void decodePoints(
+    std::array<Stream, Count>& streams, std::size_t number)
+  {
+    using Point = Point10Decoder;
+    std::array<Point*, Count> points;
+    for (std::size_t i = 0; i < Count; ++i)
+    {
+      points[i] = streams[i].Chunk.Items[number].Point.get();
+    }
+    const auto each = [&](const auto& step)
+    {
+      step(*points[0], streams[0].Decoder);
+      if constexpr (Count > 1)
+      {
+        step(*points[1], streams[1].Decoder);
+      }
+    };
+    each([](Point& p, RangeDecoder& decoder) { p.decodeChanges(decoder); });
+    each([](Point& p, RangeDecoder& decoder) { p.decodeReturns(decoder); });
+    each([](Point& p, RangeDecoder& decoder) { p.decodeWidthOfIntensity(decoder); });
+    each([](Point& p, RangeDecoder& decoder) { p.decodeIntensity(decoder); });
+    each([](Point& p, RangeDecoder& decoder) { p.decodeOthers(decoder); });
+    each([](Point& p, RangeDecoder& decoder) { p.decodeWidthX(decoder); });
+    each([](Point& p, RangeDecoder& decoder) { p.decodeX(decoder); });
+    each([](Point& p, RangeDecoder& decoder) { p.decodeWidthY(decoder); });
+    each([](Point& p, RangeDecoder& decoder) { p.decodeY(decoder); });
+    each([](Point& p, RangeDecoder& decoder) { p.decodeWidthZ(decoder); });
+    each([](Point& p, RangeDecoder& decoder) { p.decodeZ(decoder); });
+    for (std::size_t i = 0; i < Count; ++i)
+    {
+      points[i]->store(streams[i].Record + streams[i].Chunk.Items[number].Item.Offset);
+    }
+  }
+
+  [[gnu::always_inline]] static void decodeTwoTimes(
+    std::array<Stream, 2>& streams, std::size_t number)
+  {
+    for (Stream& stream : streams)
+    {
+      stream.Chunk.Items[number].Time->decodeSymbol(stream.Decoder);
+    }
+    for (Stream& stream : streams)
+    {
+      PointwiseItem& item = stream.Chunk.Items[number];
+      stream.IsGood = item.Time->decodeRest(stream.Decoder) && stream.IsGood;
+      setValue(stream.Record + item.Item.Offset, item.Time->time());
     }
   }
 
