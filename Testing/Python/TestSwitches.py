@@ -104,6 +104,14 @@ class Bounds(unittest.TestCase):
         self.assertGreater(areas(found)[~outer].max(), 0.3)
         self.assertEqual({1, 2}, set(found["triangle_attributes"].ravel().tolist()))
 
+    def test_an_area_and_those_of_regions(self):
+        given = {**GRAPH, "regions": [[0.1, 0.1, 1, 0.02], [2, 2, 2, 9]]}
+        found = tipp.triangulate(given, "pqAa0.1a")
+        outer = found["triangle_attributes"][:, 0] == 1
+        self.assertLessEqual(areas(found)[outer].max(), 0.02)
+        self.assertLessEqual(areas(found)[~outer].max(), 0.1)
+        self.assertGreater(areas(found)[~outer].max(), 0.02)
+
     def test_areas_of_regions_need_the_switch(self):
         self.assertGreater(areas(tipp.triangulate(FULL, "pqA")).max(), 0.1)
 

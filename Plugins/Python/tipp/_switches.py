@@ -28,6 +28,8 @@ class _Switches(NamedTuple):
     """YY"""
     min_angle: float
     max_area: float
+    uses_areas: bool
+    """A bare a: the areas of regions or triangles are limits, too."""
     most_points: int | None
 
 
@@ -61,8 +63,8 @@ def triangulate(tri: Mapping[str, Any], opts: str = "", *, threads: int = 0) -> 
         (t, 1).
     opts
         Triangle's switches. p: segments, holes and regions are used. q, q30: no angle is below 20 or 30 degrees, at most
-        34. a0.1, a1e-5: no triangle is larger; a: the areas of regions or, with r, those of triangle_max_area are used. c: the
-        domain is the convex hull. r: the domain is that of the given triangles, and with p also their segments are kept.
+        34. a0.1, a1e-5: no triangle is larger; a: the areas of regions or, with r, those of triangle_max_area are used; both
+        may be given, as in a0.1a. c: the domain is the convex hull. r: the domain is that of the given triangles, and with p also their segments are kept.
         A: triangles get the attribute of their region, or 0. e, n: the result has edges or neighbors. j: vertices of no
         triangle are left out. Y, YY: no points are added on the border, or on any segment. S100: refinement adds at most
         100 points. Q, V, z, i, F and l have no effect on the result. Others, such as D, are not supported.
@@ -104,13 +106,12 @@ def triangulate(tri: Mapping[str, Any], opts: str = "", *, threads: int = 0) -> 
     if is_remade:
         _require_manifold(given.triangles)
     rings = _rings(given.triangles) if is_remade else []
-    uses_areas = "a" in switches.letters and math.isinf(switches.max_area)
-    areas = given.areas if is_remade and uses_areas else np.zeros(0)
+    areas = given.areas if is_remade and switches.uses_areas else np.zeros(0)
     attributes = {} if given.attributes is None else {"attributes": given.attributes}
     regions = given.regions if is_segmented else np.zeros((0, 4))
     found = _engine.mesh(
         in_space(given.vertices), attributes, lines, rings,
-        {**_options(switches, regions if uses_areas or "A" in switches.letters else regions[:0], uses_areas),
+        {**_options(switches, regions if switches.uses_areas or "A" in switches.letters else regions[:0]),
          "holes": [tuple(hole) for hole in given.holes.tolist()] if is_segmented and not is_remade else [],
          "convex": not is_remade and ("c" in switches.letters or not is_segmented), "threads": check.threads(threads)},
         _area_surface(given.vertices, given.triangles, areas), None)
@@ -120,7 +121,7 @@ def triangulate(tri: Mapping[str, Any], opts: str = "", *, threads: int = 0) -> 
 
 
 def _switches_of(opts: str) -> _Switches:
-    letters, angle, area, most, borders = set(), 0.0, math.inf, None, 0
+    letters, angle, area, uses_areas, most, borders = set(), 0.0, math.inf, False, None, 0
     for match in _SWITCH.finditer(opts):
         letter = match[0][0]
         if letter not in "pqacrAenjYS" + _WITHOUT_EFFECT:
@@ -133,9 +134,11 @@ def _switches_of(opts: str) -> _Switches:
             angle = angle_of(_number(match[1], match[0]), "opts: the angle of q") if match[1] else _ANGLE
         elif letter == "a" and match[2]:
             area = positive(_number(match[2], match[0]), "opts: the area of a")
+        elif letter == "a":
+            uses_areas = True
         elif letter == "S":
             most = int(match[3] or 0)
-    return _Switches(frozenset(letters), borders > 1, angle, area, most)
+    return _Switches(frozenset(letters), borders > 1, angle, area, uses_areas, most)
 
 
 def _number(text: str, switch: str) -> float:
@@ -213,12 +216,12 @@ def _markers(tri: Mapping[str, Any], key: str, count: int) -> np.ndarray:
     return markers.astype(np.int32)
 
 
-def _options(switches: _Switches, regions: np.ndarray, uses_areas: bool) -> dict[str, Any]:
+def _options(switches: _Switches, regions: np.ndarray) -> dict[str, Any]:
     """Returns the engine's options but for holes, convex and threads."""
     refines = switches.most_points != 0
     return {
         "min_angle": switches.min_angle if refines else 0.0, "max_area": switches.max_area if refines else math.inf,
-        "regions": [(x, y, area if uses_areas and refines and area > 0 else math.inf)
+        "regions": [(x, y, area if switches.uses_areas and refines and area > 0 else math.inf)
                     for x, y, _, area in regions.tolist()],
         "keep_border": "Y" in switches.letters, "keep_segments": switches.keeps_segments, "shortest_edge": 0.0,
         "most_points": switches.most_points or 0, "smooth": 0, "crossings": 1, "marks": 1, "lengths": None,
