@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <unordered_map>
 #include <utility>
 
 namespace tipp
@@ -142,7 +143,10 @@ private:
   }
 
   void checkSegments();
-  void addChain(Position a, Position b, const check::Route& route);
+  void addChain(Position a, Position b, check::Route&& route);
+  void addBorderEdges();
+  void addBorderEdge(
+    const check::RoundedBorder::Line& line, const check::Route& route, std::size_t i);
   QualityReport::Fault countHeld(const std::vector<double>& xy, bool unlessVertices) const;
   void checkBorder();
   void checkTriangles();
@@ -161,6 +165,13 @@ private:
   const check::AngleBound Bound;
   const MeshEdges Edges;
   check::InputAngles Angles;
+  struct Chain
+  {
+    Position A;
+    Position B;
+    check::Route Way;
+  };
+  std::vector<Chain> Chains;
   check::RoundedBorder Border;
   std::vector<FixedEdge> Fixed; ///< the chains' edges, sorted
   /// The edges of all chains that segments may have, sorted: of segments at the distance of
@@ -170,24 +181,70 @@ private:
   QualityReport Report;
 };
 
-void QualityCheck::addChain(Position a, Position b, const check::Route& route)
+void QualityCheck::addChain(Position a, Position b, check::Route&& route)
 {
   for (std::size_t i = 0; i + 1 < route.Vertices.size(); ++i)
   {
-    if (route.IsGap[i])
+    if (!route.IsGap[i])
     {
-      continue;
-    }
-    const std::int64_t from = route.Vertices[i];
-    const std::int64_t to = route.Vertices[i + 1];
-    this->Fixed.push_back({ std::min(from, to), std::max(from, to) });
-    const bool isMeshLeft = this->Edges.leftOf(from, to) != MeshEdges::None;
-    if (isMeshLeft != (this->Edges.leftOf(to, from) != MeshEdges::None))
-    {
-      this->Border.add(a, b, route.Positions[i], route.Positions[i + 1], isMeshLeft);
+      this->Fixed.push_back({ std::min(route.Vertices[i], route.Vertices[i + 1]),
+        std::max(route.Vertices[i], route.Vertices[i + 1]) });
     }
   }
   this->Angles.add(a, b, route.Vertices);
+  this->Chains.push_back({ a, b, std::move(route) });
+}
+
+/// Adds the border edges of the chains. At a crossing, which was rounded, a chain has fewer edges
+/// than there are fixed ones: there the segment is bent, and its split points are on the line from
+/// one such vertex to the next.
+void QualityCheck::addBorderEdges()
+{
+  std::unordered_map<std::int64_t, std::size_t> fixedAt; // by vertex: the number of fixed edges
+  for (const FixedEdge& edge : this->Fixed)
+  {
+    ++fixedAt[edge[0]];
+    ++fixedAt[edge[1]];
+  }
+  for (const auto& [a, b, route] : this->Chains)
+  {
+    const std::size_t last = route.Vertices.size() - 1;
+    const auto isBend = [&, &route = route](std::size_t i)
+    {
+      const std::size_t own = (route.IsGap[i - 1] ? 0U : 1U) + (route.IsGap[i] ? 0U : 1U);
+      return fixedAt[route.Vertices[i]] != own;
+    };
+    for (std::size_t from = 0; from < last;)
+    {
+      std::size_t to = from + 1;
+      while (to < last && !isBend(to))
+      {
+        ++to;
+      }
+      const check::RoundedBorder::Line line{ a, b, route.Positions[from], route.Positions[to] };
+      for (; from < to; ++from)
+      {
+        this->addBorderEdge(line, route, from);
+      }
+    }
+  }
+  this->Border.finish();
+}
+
+void QualityCheck::addBorderEdge(
+  const check::RoundedBorder::Line& line, const check::Route& route, std::size_t i)
+{
+  if (route.IsGap[i])
+  {
+    return;
+  }
+  const std::int64_t from = route.Vertices[i];
+  const std::int64_t to = route.Vertices[i + 1];
+  const bool isMeshLeft = this->Edges.leftOf(from, to) != MeshEdges::None;
+  if (isMeshLeft != (this->Edges.leftOf(to, from) != MeshEdges::None))
+  {
+    this->Border.add(line, route.Positions[i], route.Positions[i + 1], isMeshLeft);
+  }
 }
 
 /// Finds the chains of the segments, and of the edges of the input's convex hull: where the mesh is
@@ -213,10 +270,10 @@ void QualityCheck::checkSegments()
     {
       continue; // needs no chain
     }
-    const auto route = chains.find(a, b, mayBeFixed);
+    auto route = chains.find(a, b, mayBeFixed);
     if (route)
     {
-      this->addChain(a, b, *route);
+      this->addChain(a, b, std::move(*route));
     }
     else
     {
@@ -225,9 +282,9 @@ void QualityCheck::checkSegments()
   }
   for (const auto& [a, b] : this->hullEdges())
   {
-    if (const auto route = chains.find(a, b, mayBeFixed))
+    if (auto route = chains.find(a, b, mayBeFixed))
     {
-      this->addChain(a, b, *route);
+      this->addChain(a, b, std::move(*route));
     }
   }
   for (std::vector<FixedEdge>* const edges : { &this->Fixed, &this->MayBeFixed })
@@ -236,7 +293,7 @@ void QualityCheck::checkSegments()
     edges->erase(std::unique(edges->begin(), edges->end()), edges->end());
   }
   this->Angles.finish();
-  this->Border.finish();
+  this->addBorderEdges();
 }
 
 std::vector<std::array<Position, 2>> QualityCheck::hullEdges() const

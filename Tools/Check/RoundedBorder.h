@@ -17,27 +17,35 @@ namespace check
 class RoundedBorder
 {
 public:
-  /// Adds the edge from p to q, which is on the segment from a to b and has its direction.
-  /// `isMeshLeft`: whether the mesh is to the left of it.
-  void add(Position a, Position b, Position p, Position q, bool isMeshLeft);
+  /// A straight part of a segment.
+  struct Line
+  {
+    Position A; ///< the segment's ends
+    Position B;
+    Position From; ///< the part's ends, which may be rounded crossings
+    Position To;
+  };
+
+  /// Adds the edge from p to q, which is on the part and has its direction. `isMeshLeft`: whether
+  /// the mesh is to the left of it.
+  void add(Line line, Position p, Position q, bool isMeshLeft);
   /// Call this after the last edge.
   void finish();
 
-  /// Returns whether a point is strictly outside of a segment, but rounding may have led an edge
-  /// there beyond the point.
+  /// Returns whether a point is strictly outside of a part of a segment, and not on the segment,
+  /// but rounding may have led an edge there beyond the point.
   bool mayCover(Position p) const;
 
 private:
-  struct Part
+  struct Edge
   {
-    Position A; ///< the mesh is to the left of the segment from A to B
-    Position B;
-    Position P; ///< the western end of the edge
+    Line On;    ///< its mesh is to the left
+    Position P; ///< the western end
     Position Q;
   };
 
-  std::vector<Part> Parts; ///< sorted by x of P
-  double Widest = 0;       ///< the largest difference of the ends' x, and the largest reach
+  std::vector<Edge> Edges; ///< sorted by x of P
+  double Widest = 0;       ///< the largest difference of the ends' x, with the reach of rounding
 };
 
 } // namespace check

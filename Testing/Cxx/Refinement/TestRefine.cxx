@@ -216,6 +216,23 @@ TEST(Refine, ASegmentMayEndBesideTheBorder)
   EXPECT_TRUE(isRight(graph, refined, "14"));
 }
 
+TEST(Refine, PointsMayBeBesideACrossedBorder)
+{
+  LineGraph graph; // point 1 is outside of the segment from 2 to 4, which is bent at its crossings
+  graph.XY = { 1.0 / 3 + 1.0 / 3000, 1.0 / 3000, 1.3336666666666666, 0.33366666666666667,
+    0.66699999999999993, 0.00033333333333333332, 1.0003333333333333, 0.33366666666666667,
+    3.3336666666666663, 1.3336666666666666, 3, 0.00033333333333333332, 2.3336666666666663,
+    0.66699999999999993, 3.0003333333333333, 1.0003333333333333 };
+  graph.Segments = { { 3, 5 }, { 5, 2 }, { 2, 6 }, { 0, 2 }, { 3, 7 }, { 2, 4 } };
+  RefinementOptions options;
+  options.MinimumAngle = 19;
+  options.ShortestEdge = 0.0182292;
+  options.IsEnclosed = true;
+  const Refined refined = refineGraph(graph, options);
+  EXPECT_LT(20u, refined.Mesh.triangleCount());
+  EXPECT_TRUE(isRight(graph, refined, "19"));
+}
+
 TEST(Refine, CrossingSegmentsAreSplit)
 {
   RefinementOptions options = withAngle(28);
