@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Resample/KeptSamples.h"
 
+#include "Arrays/IndexSet.h"
 #include "Resample/ClaimSamples.h"
 #include "Resample/Lanes.h"
 
@@ -275,6 +276,62 @@ std::size_t KeptSamples::bytes() const
     sum += size(strip.FirstSlots) + size(strip.Slots) + size(strip.Samples);
   }
   return sum;
+}
+
+template <typename Work>
+void KeptSamples::forSlots(const Work& work)
+{
+  for (Strip& strip : this->Strips)
+  {
+    for (Slot& slot : strip.Slots)
+    {
+      work(slot);
+    }
+  }
+}
+
+std::vector<std::int32_t> KeptSamples::keepPoints(std::int64_t count)
+{
+  IndexSet used(count);
+  this->forSlots(
+    [&used](const Slot& slot)
+    {
+      for (const std::int32_t point : slot.Points)
+      {
+        used.add(point);
+      }
+    });
+  used.number();
+  this->forSlots(
+    [&used](Slot& slot)
+    {
+      for (std::int32_t& point : slot.Points)
+      {
+        point = std::int32_t(used.rank(point));
+      }
+    });
+  return used.elements();
+}
+
+std::vector<std::int32_t> KeptSamples::keepCells(std::int64_t count)
+{
+  IndexSet used(count);
+  this->forSlots([&used](const Slot& slot) { used.add(slot.Cell); });
+  used.number();
+  this->forSlots([&used](Slot& slot) { slot.Cell = std::int32_t(used.rank(slot.Cell)); });
+  return used.elements();
+}
+
+void KeptSamples::renumberPoints(const std::vector<std::int32_t>& numbers)
+{
+  this->forSlots(
+    [&numbers](Slot& slot)
+    {
+      for (std::int32_t& point : slot.Points)
+      {
+        point = numbers[std::size_t(point)];
+      }
+    });
 }
 
 template <typename Work>

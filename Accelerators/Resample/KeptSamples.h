@@ -35,6 +35,16 @@ public:
   std::int64_t inside() const { return this->Inside; }
   std::size_t bytes() const; ///< memory in use
 
+  ///@{
+  /// Return the mesh's points, or triangles, that samples use, ascending, and number them by their
+  /// order among these from now on: the functions below take values of them alone. `count`: the
+  /// number of points or triangles of the mesh.
+  std::vector<std::int32_t> keepPoints(std::int64_t count);
+  std::vector<std::int32_t> keepCells(std::int64_t count);
+  ///@}
+  /// Gives points other numbers: `numbers` has that of each. Several may have the same.
+  void renumberPoints(const std::vector<std::int32_t>& numbers);
+
   /// Interpolates a field linearly from its values at the mesh's points. A sample is NaN outside of
   /// all triangles, and if a corner of its triangle is.
   void fromPoints(const double* values, float* samples, int threads) const;
@@ -89,6 +99,9 @@ private:
 
   std::int64_t tileCount() const { return this->TilesAcross * this->TilesDown; }
   TileBox boxOf(std::int64_t tile) const;
+  /// Calls work(slot) for all slots.
+  template <typename Work>
+  void forSlots(const Work& work);
   template <typename Work>
   void forTiles(int threads, const Work& work) const;
   /// Sets each sample to sample(slot, kept, index).

@@ -4,12 +4,14 @@
 #include "Files/IOError.h"
 #include "Parallel/Stopwatch.h"
 #include "Sampling/SamplingLattice.h"
-#include "Series/SpacePoints.h"
+#include "Series/ChosenTriangles.h"
+#include "Series/SampleBoxes.h"
 
 #include <algorithm>
 #include <cmath>
 #include <future>
 #include <limits>
+#include <memory>
 #include <sstream>
 #include <utility>
 
@@ -26,18 +28,9 @@ std::string textOf(const Box2& box)
   return text.str();
 }
 
-/// The mesh's bounding box. Throws IOError if it has no points, or if it does not meet the range.
-Box2 requireMeeting(const MeshSeries& series, const SeriesMesh& mesh, const SeriesRange& range)
+void requireMeeting(const MeshSeries& series, const Box2& box, const SeriesRange& range)
 {
-  Box2 box = Box2::empty();
-  for (std::size_t i = 0; i < mesh.XY.size(); i += 2)
-  {
-    if (std::isfinite(mesh.XY[i]) && std::isfinite(mesh.XY[i + 1]))
-    {
-      box.extend(Point2{ mesh.XY[i], mesh.XY[i + 1] });
-    }
-  }
-  if (box.isEmpty() || mesh.Triangles.empty())
+  if (box.isEmpty())
   {
     throw IOError(series.Path, "has no triangles.");
   }
@@ -46,6 +39,19 @@ Box2 requireMeeting(const MeshSeries& series, const SeriesMesh& mesh, const Seri
     throw IOError(series.Path,
       "has nothing in --bounds: its nodes have " + textOf(box) +
         "; give xmin xmax ymin ymax in these units.");
+  }
+}
+
+Box2 boundsOf(const SeriesNodes& nodes)
+{
+  Box2 box = Box2::empty();
+  for (std::int64_t i = 0; i < nodes.size(); ++i)
+  {
+    const Point2 p = nodes[i];
+    if (isFinite(p))
+    {
+      box.extend(p);
+    }
   }
   return box;
 }
@@ -61,29 +67,62 @@ Lattice latticeOf(const Box2& box, const SeriesRange& range)
   return rangeLattice(bounds, dimensions, { range.Delta[0], range.Delta[1], 0 });
 }
 
+/// Reads the triangles that may claim samples of the lattice, which is set.
+ChosenTriangles readTriangles(MeshSeries& series, const SeriesRange& range,
+  const std::optional<Box2>& bounds, int threads, Lattice& grid)
+{
+  return ChosenTriangles(
+    series,
+    [&](const SeriesNodes& nodes) -> ChosenTriangles::Test
+    {
+      const Box2 box = bounds ? *bounds : boundsOf(nodes);
+      if (box.isEmpty())
+      {
+        return [](const Box2&) { return false; };
+      }
+      grid = latticeOf(box, range);
+      requireMemory(double(grid.samples()), 32 * double(grid.samples()));
+      const auto boxes = std::make_shared<SampleBoxes>(grid);
+      return [boxes](const Box2& triangle) { return boxes->mayHoldSamples(triangle); };
+    },
+    threads);
+}
+
 } // namespace
 
 std::optional<SeriesSamples> findSamples(
   MeshSeries& series, const SeriesRange& range, int threads, const Report& progress)
 {
-  SeriesMesh read = series.readMesh();
-  SeriesSamples samples{ latticeOf(requireMeeting(series, read, range), range), KeptSamples() };
-  requireMemory(double(samples.Grid.samples()), 32 * double(samples.Grid.samples()));
-  constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
-  const auto nodes = std::int64_t(read.XY.size() / 2);
-  if (nodes > most || std::int64_t(read.Triangles.size() / 3) > most)
+  SeriesSamples samples;
+  std::optional<ChosenTriangles> triangles;
+  triangles.emplace(readTriangles(series, range, range.Bounds, threads, samples.Grid));
+  const Box2 bounds = triangles->bounds();
+  requireMeeting(series, bounds, range);
+  const Lattice wanted = latticeOf(bounds, range);
+  if (wanted.Min != samples.Grid.Min || wanted.Delta != samples.Grid.Delta ||
+    wanted.Extent != samples.Grid.Extent) // there are nodes beyond all triangles
   {
-    throw IOError(series.Path, "has more than 2147483647 nodes or triangles; partition it first.");
+    triangles.reset();
+    triangles.emplace(readTriangles(series, range, bounds, threads, samples.Grid));
   }
-  const SpacePoints points(read.XY, threads);
-  read.XY = {};
-  const SimplexMesh mesh = points.meshOf(read.Triangles);
+  const SimplexMesh mesh = triangles->mesh();
   std::optional<KeptSamples> kept = KeptSamples::find(mesh, samples.Grid, threads, progress);
   if (!kept)
   {
     return std::nullopt;
   }
   samples.Kept = std::move(*kept);
+  ChosenTriangles::Stored nodes =
+    triangles->storedNodes(samples.Kept.keepPoints(std::max<std::int64_t>(mesh.PointCount, 1)));
+  if (!nodes.Ranks.empty())
+  {
+    samples.Kept.renumberPoints(nodes.Ranks);
+  }
+  samples.Nodes = std::move(nodes.At);
+  if (mesh.Cells > 0)
+  {
+    samples.Cells = triangles->storedCells(samples.Kept.keepCells(mesh.Cells));
+  }
   return samples;
 }
 
@@ -201,13 +240,18 @@ private:
     return times;
   }
 
+  const std::vector<std::int32_t>& storedOf(std::size_t variable) const
+  {
+    return this->Series.Variables[variable].OnCells ? this->Samples.Cells : this->Samples.Nodes;
+  }
+
   /// Reads the values of a task, in another thread.
   std::vector<double> read(const Task& task)
   {
     const Stopwatch watch;
     std::vector<double> values;
     const std::size_t step = this->Plan.Steps.empty() ? 0 : this->Plan.Steps[task.Step];
-    this->Series.read(task.Of->Variable, step, values);
+    this->Series.readAt(task.Of->Variable, step, this->storedOf(task.Of->Variable), values);
     const std::string& name = this->Series.Variables[task.Of->Variable].Name;
     for (double& value : values)
     {
@@ -310,7 +354,7 @@ private:
       return;
     }
     std::vector<double> depth;
-    this->Series.read(*this->Plan.Depth, 0, depth);
+    this->Series.readAt(*this->Plan.Depth, 0, this->Samples.Nodes, depth);
     for (double& value : depth)
     {
       value = -value;

@@ -22,7 +22,7 @@ namespace tipp
 /// The grid to resample on.
 struct SeriesRange
 {
-  std::optional<Box2> Bounds;                 ///< nullopt: the mesh's bounds
+  std::optional<Box2> Bounds;                 ///< nullopt: those of the triangles
   std::array<int, 2> Dimensions = {};         ///< number of samples; see chosenDimensions()
   std::array<double, 2> Delta = { 0.0, 0.0 }; ///< distance of samples; 0: Dimensions applies
 };
@@ -46,11 +46,15 @@ struct SeriesPlan
 struct SeriesSamples
 {
   Lattice Grid;
-  KeptSamples Kept;
+  KeptSamples Kept; ///< takes the values of Nodes, or of Cells
+  ///@{ The nodes and cells of the file with the samples' values, for MeshSeries::readAt().
+  std::vector<std::int32_t> Nodes;
+  std::vector<std::int32_t> Cells;
+  ///@}
 };
 
-/// Reads the mesh and finds the triangles of the samples. Nothing if `progress` stopped it. Throws
-/// IOError, std::runtime_error.
+/// Reads the mesh, block by block, and finds the triangles of the samples. Nothing if `progress`
+/// stopped it. Throws IOError, std::runtime_error.
 VTKTIPPFILTERS_EXPORT std::optional<SeriesSamples> findSamples(
   MeshSeries& series, const SeriesRange& range, int threads, const Report& progress = {});
 

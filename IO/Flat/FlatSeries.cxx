@@ -13,11 +13,12 @@ namespace tipp
 namespace
 {
 
-/// Reads one component of all tuples of an array.
-std::vector<double> readComponent(const RawArray& array, int component)
+/// Reads one component of the tuples [begin, end) of an array.
+std::vector<double> readComponent(
+  const RawArray& array, int component, std::int64_t begin, std::int64_t end)
 {
   const InputFile file(array.Path);
-  std::vector<double> values(std::size_t(array.Tuples));
+  std::vector<double> values(std::size_t(end - begin));
   const std::size_t size = scalarSize(array.Type);
   const std::size_t tuple = array.tupleBytes();
   // Whole tuples at a time.
@@ -26,7 +27,7 @@ std::vector<double> readComponent(const RawArray& array, int component)
   for (std::size_t first = 0; first < values.size(); first += most)
   {
     const std::size_t count = std::min(most, values.size() - first);
-    file.read(array.Offset + first * tuple, bytes.data(), count * tuple);
+    file.read(array.Offset + (std::size_t(begin) + first) * tuple, bytes.data(), count * tuple);
     withScalar(array.Type,
       [&](auto type)
       {
@@ -38,6 +39,11 @@ std::vector<double> readComponent(const RawArray& array, int component)
       });
   }
   return values;
+}
+
+std::vector<double> readComponent(const RawArray& array, int component)
+{
+  return readComponent(array, component, 0, array.Tuples);
 }
 
 class FlatSeries : public MeshSeries
@@ -90,6 +96,34 @@ public:
     return mesh;
   }
 
+  SeriesNodes readTriangles(const TakeTriangles& take) override
+  {
+    SeriesNodes nodes;
+    const std::int64_t count = this->Mesh.Points.Tuples;
+    for (std::int64_t begin = 0; begin < count; begin += block)
+    {
+      const std::int64_t end = std::min(begin + block, count);
+      const std::vector<double> x = readComponent(this->Mesh.Points, 0, begin, end);
+      const std::vector<double> y = readComponent(this->Mesh.Points, 1, begin, end);
+      std::vector<double> xy(2 * x.size());
+      for (std::size_t i = 0; i < x.size(); ++i)
+      {
+        xy[2 * i] = x[i];
+        xy[2 * i + 1] = y[i];
+      }
+      nodes.add(xy, count - end);
+    }
+    CellReader cells(this->Mesh);
+    SeriesTriangles triangles;
+    for (std::int64_t begin = 0; begin < this->Mesh.Cells.Tuples; begin += block)
+    {
+      triangles.FirstCell = begin;
+      cells.read(begin, std::min(begin + block, this->Mesh.Cells.Tuples), triangles.Nodes);
+      take(nodes, triangles);
+    }
+    return nodes;
+  }
+
   void read(std::size_t variable, std::size_t step, std::vector<double>& values) override
   {
     const Source& source = this->Sources[variable];
@@ -97,7 +131,27 @@ public:
       readComponent(source.Steps[this->Variables[variable].Varies ? step : 0], source.Component);
   }
 
+  void readAt(std::size_t variable, std::size_t step, const std::vector<std::int32_t>& at,
+    std::vector<double>& values) override
+  {
+    const Source& source = this->Sources[variable];
+    const RawArray& array = source.Steps[this->Variables[variable].Varies ? step : 0];
+    values.resize(at.size());
+    for (std::size_t i = 0; i < at.size();)
+    {
+      const std::int64_t begin = at[i] / block * block;
+      const std::int64_t end = std::min(begin + block, array.Tuples);
+      const std::vector<double> read = readComponent(array, source.Component, begin, end);
+      for (; i < at.size() && at[i] < end; ++i)
+      {
+        values[i] = read[std::size_t(at[i] - begin)];
+      }
+    }
+  }
+
 private:
+  static constexpr std::int64_t block = std::int64_t(1) << 20; ///< tuples that are read at once
+
   /// Where a variable is: its array at each step.
   struct Source
   {

@@ -265,10 +265,16 @@ std::vector<double> NetcdfFile::read(const NetcdfVariable& variable)
 
 std::vector<std::int64_t> NetcdfFile::readIntegers(const NetcdfVariable& variable)
 {
+  const std::vector<std::int64_t> shape = this->Content.shape(variable);
+  return this->readIntegers(variable, std::vector<std::int64_t>(shape.size(), 0), shape);
+}
+
+std::vector<std::int64_t> NetcdfFile::readIntegers(const NetcdfVariable& variable,
+  const std::vector<std::int64_t>& start, const std::vector<std::int64_t>& count)
+{
   constexpr double most = 9007199254740992; // 2^53: larger ones are not exact as doubles
   constexpr std::size_t block = 4096;
-  const std::vector<std::int64_t> shape = this->Content.shape(variable);
-  const NetcdfPart part{ variable.Id, std::vector<std::int64_t>(shape.size(), 0), shape };
+  const NetcdfPart part{ variable.Id, start, count };
   const std::size_t size = this->requireNumbers(variable, part);
   std::vector<std::int64_t> integers(size, Missing);
   std::vector<double> values(std::min(block, size));
@@ -277,9 +283,9 @@ std::vector<std::int64_t> NetcdfFile::readIntegers(const NetcdfVariable& variabl
   const NetcdfPacking packing = packingOf(variable);
   for (std::size_t begin = 0; begin < size; begin += block)
   {
-    const std::size_t count = std::min(block, size - begin);
-    unpackValues(packing, stored + begin * valueBytes(variable), count, values.data());
-    for (std::size_t i = 0; i < count; ++i)
+    const std::size_t some = std::min(block, size - begin);
+    unpackValues(packing, stored + begin * valueBytes(variable), some, values.data());
+    for (std::size_t i = 0; i < some; ++i)
     {
       const double value = values[i];
       if (std::fabs(value) > most || std::floor(value) < value)

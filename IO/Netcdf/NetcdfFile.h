@@ -40,6 +40,9 @@ public:
   static constexpr std::int64_t Missing = std::numeric_limits<std::int64_t>::min();
   /// Reads a whole variable as integers, which numbers with a decimal point may be.
   std::vector<std::int64_t> readIntegers(const NetcdfVariable& variable);
+  /// Reads a part of a variable so.
+  std::vector<std::int64_t> readIntegers(const NetcdfVariable& variable,
+    const std::vector<std::int64_t>& start, const std::vector<std::int64_t>& count);
 
   /// Reads a whole array of characters.
   std::string readText(const NetcdfVariable& variable);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdlib>
 #include <stdexcept>
 #include <utility>
@@ -84,7 +85,7 @@ NetcdfContent NetcdfLibrary::open(const std::string& path)
     content.Variables.push_back(this->describe(i));
   }
   content.Attributes = this->attributesOf(NC_GLOBAL, attributes);
-  this->Cached.assign(std::size_t(variables), false);
+  this->CacheBytes.assign(std::size_t(variables), 0);
   return content;
 }
 
@@ -149,53 +150,61 @@ NetcdfAttribute NetcdfLibrary::attributeOf(int variable, int index) const
   return attribute;
 }
 
-/// Chunks may hold several steps: lets the library keep all chunks that a step needs, so that the
-/// next step does not decompress them again.
-void NetcdfLibrary::enlargeCache(int variable)
+/// Lets the library keep the chunks that it will need again, so that it decompresses them once:
+/// those at the end of the part and, where chunks hold several steps, all that a step needs.
+void NetcdfLibrary::enlargeCache(const NetcdfPart& part)
 {
-  constexpr std::size_t most = std::size_t(512) << 20;
+  constexpr double most = double(std::size_t(512) << 20);
+  constexpr double usual = double(std::size_t(16) << 20);
   std::array<int, NC_MAX_VAR_DIMS> dimensions{};
   std::array<std::size_t, NC_MAX_VAR_DIMS> chunk{};
   int count = 0;
   int storage = NC_CONTIGUOUS;
   nc_type type = NC_NAT;
   std::size_t bytes = 0;
-  if (nc_inq_var(this->File, variable, nullptr, &type, &count, dimensions.data(), nullptr) != 0 ||
-    nc_inq_var_chunking(this->File, variable, &storage, chunk.data()) != 0 ||
-    nc_inq_type(this->File, type, nullptr, &bytes) != 0 || storage != NC_CHUNKED || count == 0)
+  const int id = part.Variable;
+  if (nc_inq_var(this->File, id, nullptr, &type, &count, dimensions.data(), nullptr) != 0 ||
+    nc_inq_var_chunking(this->File, id, &storage, chunk.data()) != 0 ||
+    nc_inq_type(this->File, type, nullptr, &bytes) != 0 || storage != NC_CHUNKED ||
+    std::size_t(count) != part.Count.size())
   {
     return;
   }
-  double needed = double(bytes) * double(chunk[0]);
-  std::size_t chunks = 1;
-  for (int i = 1; i < count; ++i)
+  const auto isStep = [&](std::size_t i) { return part.Count[i] == 1 && chunk[i] > 1; };
+  bool holdsSteps = false;
+  for (std::size_t i = 0; i < part.Count.size(); ++i)
+  {
+    holdsSteps = holdsSteps || isStep(i);
+  }
+  double needed = double(bytes);
+  double chunks = 1;
+  for (std::size_t i = 0; i < part.Count.size(); ++i)
   {
     std::size_t size = 0;
-    nc_inq_dimlen(this->File, dimensions[std::size_t(i)], &size);
-    const std::size_t side = std::max<std::size_t>(chunk[std::size_t(i)], 1);
-    const std::size_t along = size / side + (size % side != 0 ? 1 : 0);
-    needed *= double(along) * double(side);
-    chunks *= std::max<std::size_t>(along, 1);
+    nc_inq_dimlen(this->File, dimensions[i], &size);
+    const double side = std::max(double(chunk[i]), 1.0);
+    const double all = std::ceil(double(size) / side);
+    const double touched = std::min(all, std::ceil(double(part.Count[i]) / side) + 1);
+    const double along = isStep(i) ? 1 : holdsSteps ? all : touched;
+    needed *= along * side;
+    chunks *= std::max(along, 1.0);
   }
-  constexpr std::size_t usual = std::size_t(16) << 20;
-  if (needed > double(usual) && needed <= double(most))
+  std::size_t& known = this->CacheBytes[std::size_t(id)];
+  if (needed > std::max(usual, double(known)) && needed <= most)
   {
+    known = std::size_t(needed);
     nc_set_var_chunk_cache(
-      this->File, variable, std::size_t(needed) + usual, 10 * chunks + 1009, 0.75F);
+      this->File, id, known + std::size_t(usual), std::size_t(10 * chunks) + 1009, 0.75F);
   }
 }
 
 void NetcdfLibrary::read(const NetcdfPart& part, void* to)
 {
-  if (part.Variable < 0 || std::size_t(part.Variable) >= this->Cached.size())
+  if (part.Variable < 0 || std::size_t(part.Variable) >= this->CacheBytes.size())
   {
     throw std::runtime_error("there is no such variable");
   }
-  if (!this->Cached[std::size_t(part.Variable)])
-  {
-    this->enlargeCache(part.Variable);
-    this->Cached[std::size_t(part.Variable)] = true;
-  }
+  this->enlargeCache(part);
   const std::vector<std::size_t> start(part.Start.begin(), part.Start.end());
   const std::vector<std::size_t> count(part.Count.begin(), part.Count.end());
   check(nc_get_vara(this->File, part.Variable, start.data(), count.data(), to));

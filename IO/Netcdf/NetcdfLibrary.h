@@ -49,10 +49,10 @@ private:
   NetcdfVariable describe(int id) const;
   std::vector<NetcdfAttribute> attributesOf(int variable, int count) const;
   NetcdfAttribute attributeOf(int variable, int index) const;
-  void enlargeCache(int variable);
+  void enlargeCache(const NetcdfPart& part);
 
   int File = -1;
-  std::vector<bool> Cached; ///< the variables with a cache that fits their chunks
+  std::vector<std::size_t> CacheBytes; ///< of each variable, as far as it was enlarged
 };
 
 } // namespace tipp

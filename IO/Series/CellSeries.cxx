@@ -3,11 +3,25 @@
 
 #include "Files/IOError.h"
 
+#include <algorithm>
+#include <numeric>
 #include <string>
 #include <utility>
 
 namespace tipp
 {
+namespace
+{
+
+std::vector<double> interleaved(SeriesNodes nodes)
+{
+  std::vector<double> xy;
+  xy.reserve(2 * std::size_t(nodes.size()));
+  nodes.consume([&xy](std::int64_t, Point2 p) { xy.insert(xy.end(), { p.x, p.y }); });
+  return xy;
+}
+
+} // namespace
 
 void CellSeries::setSize(std::int64_t nodes, std::int64_t cells)
 {
@@ -16,34 +30,93 @@ void CellSeries::setSize(std::int64_t nodes, std::int64_t cells)
   this->Nodes = nodes;
   if (this->Wrap)
   {
-    this->prepare(); // which may copy nodes
+    this->readTriangles([](const SeriesNodes&, const SeriesTriangles&) {}); // may copy nodes
   }
 }
 
+SeriesNodes CellSeries::readTriangles(const TakeTriangles& take)
+{
+  const std::unique_ptr<CellSource> source = this->openCells();
+  SeriesNodes nodes = source->readNodes();
+  CellCutter cutter(std::move(nodes), source->IsInDegrees, this->Wrap, this->Path);
+  CellBlock block;
+  while (source->next(block))
+  {
+    take(cutter.nodes(), cutter.cut(std::move(block)));
+  }
+  this->finishCutting(cutter);
+  return std::move(cutter.nodes());
+}
+
+void CellSeries::finishCutting(CellCutter& cutter)
+{
+  if (!this->IsCut)
+  {
+    const std::vector<SeriesLeftOut> leftOut = cutter.leftOut();
+    this->LeftOut.insert(this->LeftOut.end(), leftOut.begin(), leftOut.end());
+  }
+  this->IsCut = true;
+  this->Nodes = cutter.nodes().size();
+  this->Copies = cutter.nodes().copies();
+}
+
+namespace
+{
+
+/// Adds triangles to a mesh that has `count`.
+void append(SeriesMesh& mesh, SeriesTriangles triangles, std::int64_t count)
+{
+  const std::size_t added = triangles.Nodes.size() / 3;
+  if (!mesh.OriginalCells.empty() || !triangles.Cells.empty() || triangles.FirstCell != count)
+  {
+    if (mesh.OriginalCells.empty()) // up to here the cells are the triangles
+    {
+      mesh.OriginalCells.resize(std::size_t(count));
+      std::iota(mesh.OriginalCells.begin(), mesh.OriginalCells.end(), 0);
+    }
+    for (std::size_t i = 0; i < added; ++i)
+    {
+      mesh.OriginalCells.push_back(triangles.cell(i));
+    }
+  }
+  if (count == 0)
+  {
+    mesh.Triangles.swap(triangles.Nodes);
+    return;
+  }
+  mesh.Triangles.insert(mesh.Triangles.end(), triangles.Nodes.begin(), triangles.Nodes.end());
+}
+
+} // namespace
+
 void CellSeries::prepare()
 {
-  CellMesh cells = this->readCells();
-  const std::vector<std::int64_t> originals = std::move(cells.Originals);
-  CutMesh cut = cutCells(std::move(cells), this->Wrap, this->Path);
-  if (!this->IsPrepared)
+  const std::unique_ptr<CellSource> source = this->openCells();
+  CellCutter cutter(source->readNodes(), source->IsInDegrees, this->Wrap, this->Path);
+  SeriesMesh mesh;
+  CellBlock block;
+  while (source->next(block))
   {
-    this->LeftOut.insert(this->LeftOut.end(), cut.LeftOut.begin(), cut.LeftOut.end());
+    const auto count = std::int64_t(mesh.Triangles.size() / 3);
+    append(mesh, cutter.cut(std::move(block)), count);
+    mesh.Triangles.reserve(3 * std::size_t(source->Cells));
   }
-  this->Parents = cut.Mesh.OriginalCells;
-  this->Copies = std::move(cut.Copies);
-  this->Ready = std::move(cut.Mesh);
+  this->finishCutting(cutter);
+  this->Parents = mesh.OriginalCells;
+  const std::vector<std::int64_t>& originals = source->Originals;
   if (!originals.empty() && this->Parents.empty())
   {
-    this->Ready->OriginalCells = originals;
+    mesh.OriginalCells = originals;
   }
   else if (!originals.empty())
   {
-    for (std::int64_t& cell : this->Ready->OriginalCells)
+    for (std::int64_t& cell : mesh.OriginalCells)
     {
       cell = originals[std::size_t(cell)];
     }
   }
-  this->Nodes = std::int64_t(this->Ready->XY.size() / 2);
+  mesh.XY = interleaved(std::move(cutter.nodes()));
+  this->Ready = std::move(mesh);
   this->IsPrepared = true;
 }
 
@@ -60,7 +133,7 @@ SeriesMesh CellSeries::readMesh()
 
 std::vector<double> CellSeries::readNodes()
 {
-  return this->Wrap ? this->readMesh().XY : this->readCells().XY;
+  return this->Wrap ? this->readMesh().XY : interleaved(this->openCells()->readNodes());
 }
 
 void CellSeries::read(std::size_t variable, std::size_t step, std::vector<double>& values)
@@ -94,6 +167,22 @@ void CellSeries::read(std::size_t variable, std::size_t step, std::vector<double
     }
     values = std::move(parts);
   }
+}
+
+void CellSeries::readSome(std::size_t variable, std::size_t step,
+  const std::vector<std::int32_t>& at, std::vector<double>& values)
+{
+  std::vector<double> all;
+  this->readStored(variable, step, all);
+  values.resize(at.size());
+  std::transform(at.begin(), at.end(), values.begin(),
+    [&all](std::int32_t index) { return all.at(std::size_t(index)); });
+}
+
+void CellSeries::readAt(std::size_t variable, std::size_t step, const std::vector<std::int32_t>& at,
+  std::vector<double>& values)
+{
+  this->readSome(variable, this->Variables.at(variable).Varies ? step : 0, at, values);
 }
 
 } // namespace tipp

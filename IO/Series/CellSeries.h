@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -19,8 +20,11 @@ class CellSeries : public MeshSeries
 {
 public:
   SeriesMesh readMesh() final;
+  SeriesNodes readTriangles(const TakeTriangles& take) final;
   std::vector<double> readNodes() final;
   void read(std::size_t variable, std::size_t step, std::vector<double>& values) final;
+  void readAt(std::size_t variable, std::size_t step, const std::vector<std::int32_t>& at,
+    std::vector<double>& values) final;
 
 protected:
   explicit CellSeries(bool wrap)
@@ -28,9 +32,12 @@ protected:
   {
   }
 
-  virtual CellMesh readCells() = 0;
+  virtual std::unique_ptr<CellSource> openCells() = 0;
   /// Reads a variable's values at the nodes or cells of the file.
   virtual void readStored(std::size_t variable, std::size_t step, std::vector<double>& values) = 0;
+  /// Reads a variable's values at some of them, at ascending indices that are all in the file.
+  virtual void readSome(std::size_t variable, std::size_t step, const std::vector<std::int32_t>& at,
+    std::vector<double>& values);
 
   /// Must be called last by the constructor of a class that derives from this one, with the number
   /// of nodes and cells in the file.
@@ -38,11 +45,14 @@ protected:
 
 private:
   void prepare();
+  /// Takes note of what cutting all cells has shown.
+  void finishCutting(CellCutter& cutter);
 
   const bool Wrap;
   std::int64_t FileNodes = 0;
   std::int64_t FileCells = 0;
-  bool IsPrepared = false;
+  bool IsCut = false;                ///< LeftOut has the cells that are left out
+  bool IsPrepared = false;           ///< Parents is known
   std::optional<SeriesMesh> Ready;   ///< cut, and not yet returned by readMesh()
   std::vector<std::int64_t> Parents; ///< the stored cell of each triangle; empty: its own index
   std::vector<std::int64_t> Copies;

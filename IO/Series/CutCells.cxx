@@ -22,21 +22,65 @@ constexpr double turn = 360;
 
 using Corners = std::vector<std::int64_t>;
 
-class CellCutter
+class WholeCells : public CellSource
 {
 public:
-  CellCutter(CellMesh cells, bool wrap, const std::string& path)
-    : Cells(std::move(cells))
-    , Wrap(wrap)
-    , Path(path)
+  explicit WholeCells(CellMesh cells)
+    : XY(std::move(cells.XY))
+    , Block{ 0, std::move(cells.Corners), std::move(cells.Offsets) }
   {
-    this->Cells.IsInDegrees = this->Cells.IsInDegrees || this->looksLikeDegrees();
+    this->Cells = this->Block.cells();
+    this->IsInDegrees = cells.IsInDegrees;
+    this->Originals = std::move(cells.Originals);
   }
 
-  CutMesh cut()
+  SeriesNodes readNodes() override
+  {
+    SeriesNodes nodes;
+    nodes.add(this->XY);
+    this->XY = {};
+    return nodes;
+  }
+
+  bool next(CellBlock& block) override
+  {
+    block = std::move(this->Block);
+    this->Block = {};
+    return !block.Corners.empty() || !block.Offsets.empty();
+  }
+
+private:
+  std::vector<double> XY;
+  CellBlock Block;
+};
+
+} // namespace
+
+std::unique_ptr<CellSource> sourceOf(CellMesh cells)
+{
+  return std::make_unique<WholeCells>(std::move(cells));
+}
+
+class CellCutter::Work
+{
+public:
+  Work(SeriesNodes nodes, bool isInDegrees, bool wrap, const std::string& path)
+    : Given(std::move(nodes))
+    , Wrap(wrap)
+    , Path(path)
+    , IsInDegrees(isInDegrees || this->looksLikeDegrees())
   {
     this->checkNodes();
-    const std::int64_t count = this->Cells.cells();
+  }
+
+  SeriesTriangles cut(CellBlock block)
+  {
+    this->Cells = std::move(block);
+    this->Result = {};
+    this->Result.FirstCell = this->Cells.First;
+    this->Changed = false;
+    const bool mayChange = !this->Cells.Offsets.empty() || this->Wrap || this->IsInDegrees;
+    const std::int64_t count = mayChange ? this->Cells.cells() : 0;
     for (std::int64_t cell = 0; cell < count; ++cell)
     {
       pollAt(cell);
@@ -44,19 +88,24 @@ public:
     }
     if (!this->Changed)
     {
-      this->Result.Mesh.OriginalCells.clear();
-      this->Result.Mesh.Triangles = std::move(this->Cells.Corners);
+      this->Result.Nodes = std::move(this->Cells.Corners);
     }
-    if (this->PoleCells > 0)
-    {
-      this->Result.LeftOut.push_back({ "cell " + std::to_string(this->FirstPoleCell),
-        (this->PoleCells > 1 ? "and " + std::to_string(this->PoleCells - 1) + " more contain a pole"
-                             : std::string("contains a pole")) +
-          ", which a map of longitudes and latitudes cannot show" });
-    }
-    this->Result.Mesh.XY = std::move(this->Cells.XY);
     return std::move(this->Result);
   }
+
+  std::vector<SeriesLeftOut> leftOut() const
+  {
+    if (this->PoleCells == 0)
+    {
+      return {};
+    }
+    return { { "cell " + std::to_string(this->FirstPoleCell),
+      (this->PoleCells > 1 ? "and " + std::to_string(this->PoleCells - 1) + " more contain a pole"
+                           : std::string("contains a pole")) +
+        ", which a map of longitudes and latitudes cannot show" } };
+  }
+
+  SeriesNodes& nodes() { return this->Given; }
 
 private:
   /// Whether the mesh goes around the Earth, in degrees. Formats such as ADCIRC's do not say.
@@ -64,9 +113,9 @@ private:
   {
     constexpr double nearlyAll = 300;
     Box2 box = Box2::empty();
-    for (std::size_t i = 0; i < this->Cells.XY.size(); i += 2)
+    for (std::int64_t i = 0; i < this->Given.size(); ++i)
     {
-      box.extend(Point2{ this->Cells.XY[i], this->Cells.XY[i + 1] });
+      box.extend(this->Given[i]);
     }
     return box.width(0) > nearlyAll && box.width(0) <= turn && box.Min.x >= -turn / 2 &&
       box.Max.x <= turn && box.Min.y >= -turn / 4 && box.Max.y <= turn / 4;
@@ -74,21 +123,18 @@ private:
 
   void checkNodes() const
   {
-    const std::vector<double>& xy = this->Cells.XY;
-    const auto bad =
-      std::find_if(xy.begin(), xy.end(), [](double value) { return !std::isfinite(value); });
-    if (bad != xy.end())
+    for (std::int64_t i = 0; i < this->Given.size(); ++i)
     {
-      throw IOError(this->Path,
-        "gives node " + std::to_string((bad - xy.begin()) / 2) +
-          " (from 0) no finite coordinates; correct them.");
-    }
-    for (std::size_t i = 0; this->Wrap && i < xy.size(); i += 2)
-    {
-      if (std::fabs(xy[i]) > turn || std::fabs(xy[i + 1]) > turn / 4)
+      const auto [x, y] = this->Given[i];
+      if (!std::isfinite(x) || !std::isfinite(y))
       {
         throw IOError(this->Path,
-          "has a node at " + shortText(xy[i]) + ", " + shortText(xy[i + 1]) +
+          "gives node " + std::to_string(i) + " (from 0) no finite coordinates; correct them.");
+      }
+      if (this->Wrap && (std::fabs(x) > turn || std::fabs(y) > turn / 4))
+      {
+        throw IOError(this->Path,
+          "has a node at " + shortText(x) + ", " + shortText(y) +
             ", which are no longitude and latitude in degrees; leave out --wrap.");
       }
     }
@@ -96,13 +142,11 @@ private:
 
   [[noreturn]] void fail(std::int64_t cell, const std::string& problem) const
   {
-    throw IOError(this->Path, "cell " + std::to_string(cell) + " (from 0) " + problem);
+    throw IOError(
+      this->Path, "cell " + std::to_string(this->Cells.First + cell) + " (from 0) " + problem);
   }
 
-  Point2 position(std::int64_t node) const
-  {
-    return { this->Cells.XY[2 * std::size_t(node)], this->Cells.XY[2 * std::size_t(node) + 1] };
-  }
+  Point2 position(std::int64_t node) const { return this->Given[node]; }
 
   /// The cell's corners without repetitions: some files repeat a corner of cells that have fewer
   /// than others.
@@ -139,7 +183,7 @@ private:
       low = std::min(low, this->position(node).x);
       high = std::max(high, this->position(node).x);
     }
-    const bool isWide = high - low > turn / 2 && (this->Wrap || this->Cells.IsInDegrees);
+    const bool isWide = high - low > turn / 2 && (this->Wrap || this->IsInDegrees);
     if (!isWide)
     {
       this->addPolygon(cell);
@@ -154,7 +198,7 @@ private:
     this->beginChanges(cell);
     if (this->containsPole())
     {
-      this->FirstPoleCell = this->PoleCells++ == 0 ? cell : this->FirstPoleCell;
+      this->FirstPoleCell = this->PoleCells++ == 0 ? this->Cells.First + cell : this->FirstPoleCell;
       return;
     }
     this->addOnBothSides(cell, low + turn / 2);
@@ -193,18 +237,16 @@ private:
   std::int64_t copyOf(std::int64_t node, double shift)
   {
     const auto [found, isNew] =
-      this->CopyOf.emplace(std::pair(node, shift > 0), std::int64_t(this->Cells.XY.size() / 2));
+      this->CopyOf.emplace(std::pair(node, shift > 0), this->Given.size());
     if (isNew)
     {
       const Point2 p = this->position(node);
-      this->Cells.XY.push_back(p.x + shift);
-      this->Cells.XY.push_back(p.y);
-      this->Result.Copies.push_back(node);
+      this->Given.addCopy(node, { p.x + shift, p.y });
     }
     return found->second;
   }
 
-  /// From the first cell on that is not one triangle, the triangles are listed.
+  /// From the first cell of a block on that is not one triangle, the triangles are listed.
   void beginChanges(std::int64_t cell)
   {
     if (this->Changed)
@@ -212,15 +254,14 @@ private:
       return;
     }
     this->Changed = true;
-    std::vector<std::int64_t>& triangles = this->Result.Mesh.Triangles;
-    std::vector<std::int64_t>& originals = this->Result.Mesh.OriginalCells;
+    std::vector<std::int64_t>& triangles = this->Result.Nodes;
     for (std::int64_t before = 0; before < cell; ++before)
     {
       const std::int64_t first =
         this->Cells.Offsets.empty() ? 3 * before : this->Cells.Offsets[std::size_t(before)];
       triangles.insert(triangles.end(), this->Cells.Corners.begin() + first,
         this->Cells.Corners.begin() + first + 3);
-      originals.push_back(before);
+      this->Result.Cells.push_back(this->Cells.First + before);
     }
   }
 
@@ -263,15 +304,17 @@ private:
   {
     for (const std::size_t corner : corners)
     {
-      this->Result.Mesh.Triangles.push_back(this->Nodes[corner]);
+      this->Result.Nodes.push_back(this->Nodes[corner]);
     }
-    this->Result.Mesh.OriginalCells.push_back(cell);
+    this->Result.Cells.push_back(this->Cells.First + cell);
   }
 
-  CellMesh Cells;
+  SeriesNodes Given;
   const bool Wrap;
-  const std::string& Path;
-  CutMesh Result;
+  const std::string Path;
+  const bool IsInDegrees;
+  CellBlock Cells;
+  SeriesTriangles Result;
   bool Changed = false;
   std::int64_t PoleCells = 0;
   std::int64_t FirstPoleCell = 0;
@@ -281,11 +324,26 @@ private:
   std::vector<CornerTriangle> Parts;
 };
 
-} // namespace
-
-CutMesh cutCells(CellMesh cells, bool wrap, const std::string& path)
+CellCutter::CellCutter(SeriesNodes nodes, bool isInDegrees, bool wrap, const std::string& path)
+  : Cutting(std::make_unique<Work>(std::move(nodes), isInDegrees, wrap, path))
 {
-  return CellCutter(std::move(cells), wrap, path).cut();
+}
+
+CellCutter::~CellCutter() = default;
+
+SeriesTriangles CellCutter::cut(CellBlock block)
+{
+  return this->Cutting->cut(std::move(block));
+}
+
+SeriesNodes& CellCutter::nodes()
+{
+  return this->Cutting->nodes();
+}
+
+std::vector<SeriesLeftOut> CellCutter::leftOut() const
+{
+  return this->Cutting->leftOut();
 }
 
 } // namespace tipp

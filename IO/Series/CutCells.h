@@ -5,6 +5,7 @@
 #include "Series/MeshSeries.h"
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,16 @@ struct CellMesh
   bool IsInDegrees = false; ///< x is longitudes, y latitudes
   /// The index in the file of each cell, if the cells are parts of the file's; empty otherwise.
   std::vector<std::int64_t> Originals;
+};
+
+/// Consecutive cells of a file.
+struct CellBlock
+{
+  std::int64_t First = 0; ///< the index of the first cell
+  ///@{ As in CellMesh.
+  std::vector<std::int64_t> Corners;
+  std::vector<std::int64_t> Offsets;
+  ///@}
 
   std::int64_t cells() const
   {
@@ -29,22 +40,48 @@ struct CellMesh
   }
 };
 
-/// The result of cutCells().
-struct CutMesh
+/// Reads the cells of a file block by block.
+class CellSource
 {
-  SeriesMesh Mesh;
-  /// The nodes added after the nodes of the file: each is a copy of the node with this index.
-  std::vector<std::int64_t> Copies;
-  std::vector<SeriesLeftOut> LeftOut;
+public:
+  virtual ~CellSource() = default;
+  /// Reads the nodes; called once, first. Throws IOError.
+  virtual SeriesNodes readNodes() = 0;
+  /// Reads the next cells; false after the last ones. Throws IOError.
+  virtual bool next(CellBlock& block) = 0;
+
+  std::int64_t Cells = 0;              ///< their number
+  bool IsInDegrees = false;            ///< x is longitudes, y latitudes
+  std::vector<std::int64_t> Originals; ///< as in CellMesh
 };
 
-/// Cuts the cells into triangles; OriginalCells are indices of `cells`. Cells without corners are
-/// left out. Where `wrap`, cells that cross the meridian at which longitudes
-/// jump are in the mesh twice: on either side of it, with copies of nodes, so that a range of 360
-/// degrees is covered; and cells that contain a pole are left out. Otherwise, cells that are more
-/// than 180 degrees wide are an error if the mesh is known to be in degrees. Throws IOError with
-/// the path and the cell.
-CutMesh cutCells(CellMesh cells, bool wrap, const std::string& path);
+/// Cells that are in memory, as one block.
+std::unique_ptr<CellSource> sourceOf(CellMesh cells);
+
+/// Cuts the cells of a file into triangles. Cells without corners are left out. Where `wrap`, cells
+/// that cross the meridian at which longitudes jump are in the mesh twice: on either side of it,
+/// with copies of nodes, so that a range of 360 degrees is covered; and cells that contain a pole
+/// are left out. Otherwise, cells that are more than 180 degrees wide are an error if the mesh is
+/// known to be in degrees. Functions throw IOError with the path and the cell.
+class CellCutter
+{
+public:
+  CellCutter(SeriesNodes nodes, bool isInDegrees, bool wrap, const std::string& path);
+  ~CellCutter();
+  CellCutter(const CellCutter&) = delete;
+  CellCutter& operator=(const CellCutter&) = delete;
+
+  SeriesTriangles cut(CellBlock block);
+
+  /// The nodes of the file and the copies up to now.
+  SeriesNodes& nodes();
+  /// The cells left out up to now.
+  std::vector<SeriesLeftOut> leftOut() const;
+
+private:
+  class Work;
+  std::unique_ptr<Work> Cutting;
+};
 
 } // namespace tipp
 

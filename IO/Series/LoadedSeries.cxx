@@ -75,13 +75,13 @@ void LoadedSeries::addValues(const std::string& path, const SeriesVariable& vari
   this->Values.push_back(std::move(values));
 }
 
-CellMesh LoadedSeries::readCells()
+std::unique_ptr<CellSource> LoadedSeries::openCells()
 {
   CellMesh cells;
   cells.XY = this->Mesh.XY;
   cells.Corners = this->Mesh.Triangles;
   cells.Originals = this->Mesh.OriginalCells;
-  return cells;
+  return sourceOf(std::move(cells));
 }
 
 void LoadedSeries::readStored(std::size_t variable, std::size_t step, std::vector<double>& values)

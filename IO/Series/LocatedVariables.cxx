@@ -108,6 +108,10 @@ private:
       {
         located.TimeAxis = int(i);
       }
+      else if (dimension == (isOnCells ? this->Cell : this->Node))
+      {
+        located.SpaceAxis = int(i);
+      }
       else if (dimension != this->Node && dimension != this->Cell && described.Size != 1)
       {
         this->leaveOut(variable,
@@ -115,6 +119,11 @@ private:
             " besides space in the plane and time");
         return;
       }
+    }
+    if (located.SpaceAxis < 0)
+    {
+      this->leaveOut(variable, "has its nodes or cells along the dimension of time");
+      return;
     }
     if (located.TimeAxis >= 0 && this->Content.size(this->Context.TimeDimension) == 0)
     {

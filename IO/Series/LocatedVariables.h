@@ -28,7 +28,8 @@ struct LocatedVariable
 {
   SeriesVariable Described;
   const NetcdfVariable* Variable = nullptr;
-  int TimeAxis = -1; ///< the index of time among its dimensions; -1: it does not vary
+  int TimeAxis = -1;  ///< the index of time among its dimensions; -1: it does not vary
+  int SpaceAxis = -1; ///< the index of the nodes or cells among its dimensions
 };
 
 struct LocatedVariables

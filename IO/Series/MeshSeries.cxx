@@ -5,9 +5,30 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 namespace tipp
 {
+
+SeriesNodes MeshSeries::readTriangles(const TakeTriangles& take)
+{
+  SeriesMesh mesh = this->readMesh();
+  SeriesNodes nodes;
+  nodes.add(mesh.XY);
+  mesh.XY = {};
+  take(nodes, { std::move(mesh.Triangles), 0, {} });
+  return nodes;
+}
+
+void MeshSeries::readAt(std::size_t variable, std::size_t step, const std::vector<std::int32_t>& at,
+  std::vector<double>& values)
+{
+  std::vector<double> all;
+  this->read(variable, step, all);
+  values.resize(at.size());
+  std::transform(at.begin(), at.end(), values.begin(),
+    [&all](std::int32_t index) { return all.at(std::size_t(index)); });
+}
 
 std::size_t findSeriesVariable(const MeshSeries& series, const std::string& name)
 {

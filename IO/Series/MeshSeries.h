@@ -3,10 +3,12 @@
 #define tippMeshSeries_h
 
 #include "Arrays/Scalar.h"
+#include "Series/SeriesNodes.h"
 #include "vtkTIPPIOModule.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <string>
@@ -48,6 +50,24 @@ struct SeriesMesh
   std::vector<std::int64_t> OriginalCells;
 };
 
+/// Consecutive triangles of a model's mesh.
+struct SeriesTriangles
+{
+  std::vector<std::int64_t> Nodes; ///< three node indices, from 0, per triangle; all are valid
+  std::int64_t FirstCell = 0;      ///< the file's cell that is the first triangle
+  /// The file's cell that each triangle is a part of; empty: each is the next cell of the file.
+  std::vector<std::int64_t> Cells;
+
+  std::int64_t cell(std::size_t triangle) const
+  {
+    return this->Cells.empty() ? this->FirstCell + std::int64_t(triangle) : this->Cells[triangle];
+  }
+};
+
+/// Receives triangles of a mesh whose nodes up to now are known.
+using TakeTriangles =
+  std::function<void(const SeriesNodes& nodes, const SeriesTriangles& triangles)>;
+
 /// The output of a model: a mesh of triangles in the plane, and variables of which each time step
 /// is read when it is asked for.
 class VTKTIPPIO_EXPORT MeshSeries
@@ -58,6 +78,10 @@ public:
   /// Reads the mesh. Throws IOError.
   virtual SeriesMesh readMesh() = 0;
 
+  /// Reads the mesh a block of triangles after the other, in the order of readMesh(), so that it
+  /// need not be in memory as a whole. Returns the nodes. Throws IOError.
+  virtual SeriesNodes readTriangles(const TakeTriangles& take);
+
   /// Reads x and y of the nodes alone, interleaved, also where cells could not be cut. Throws
   /// IOError.
   virtual std::vector<double> readNodes() { return this->readMesh().XY; }
@@ -66,6 +90,11 @@ public:
   /// where the model has no value: at dry nodes, and where the file has its fill value. `step` is
   /// ignored if the variable does not vary. Throws IOError.
   virtual void read(std::size_t variable, std::size_t step, std::vector<double>& values) = 0;
+
+  /// Reads a variable's values at some nodes or cells of the file: at ascending indices, which may
+  /// repeat, as SeriesNodes::stored() and SeriesTriangles give them. Otherwise as read().
+  virtual void readAt(std::size_t variable, std::size_t step, const std::vector<std::int32_t>& at,
+    std::vector<double>& values);
 
   std::string Path; ///< the file, for messages
   std::string Kind; ///< the convention of the file, such as "UGRID"

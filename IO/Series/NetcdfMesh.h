@@ -6,6 +6,7 @@
 #include "Series/CutCells.h"
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -45,8 +46,9 @@ std::optional<NetcdfMesh> findNamedMesh(const std::string& path, const NetcdfCon
 void setMeshDimensions(const std::string& path, const NetcdfContent& content, NetcdfMesh& mesh,
   const std::string& cellDimension);
 
-/// Reads the mesh. Throws IOError, with the cell, for corners that are not nodes.
-CellMesh readNetcdfMesh(NetcdfFile& file, const NetcdfMesh& mesh);
+/// Reads the nodes and cells, which throws IOError, with the cell, for corners that are not nodes.
+/// The file and the mesh must outlive the result.
+std::unique_ptr<CellSource> openNetcdfCells(NetcdfFile& file, const NetcdfMesh& mesh);
 
 /// Whether the coordinates are longitudes and latitudes.
 bool isInDegrees(const NetcdfMesh& mesh);

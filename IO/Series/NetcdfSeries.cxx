@@ -82,33 +82,69 @@ public:
   }
 
 protected:
-  CellMesh readCells() override { return readNetcdfMesh(*this->Files.front(), this->Mesh); }
+  std::unique_ptr<CellSource> openCells() override
+  {
+    return openNetcdfCells(*this->Files.front(), this->Mesh);
+  }
 
   void readStored(std::size_t variable, std::size_t step, std::vector<double>& values) override
   {
     const Source& source = this->Sources.at(variable);
-    const auto [start, count] = this->partAt(variable, step);
-    source.File->read(*source.Variable, start, count, values);
-    this->Order.add(variable, step);
-    if (const auto next = this->Order.next(variable, step))
+    const Part part = this->partAt(variable, step, this->whole(variable));
+    source.File->read(*source.Variable, part.Start, part.Count, values);
+    this->prefetchAfter(variable, step, [this](std::size_t next) { return this->whole(next); });
+  }
+
+  void readSome(std::size_t variable, std::size_t step, const std::vector<std::int32_t>& at,
+    std::vector<double>& values) override
+  {
+    const Source& source = this->Sources.at(variable);
+    const bool onCells = this->Variables[variable].OnCells;
+    values.resize(at.size());
+    std::vector<double> read;
+    for (std::size_t begin = 0; begin < at.size();)
     {
-      const Source& other = this->Sources[next->Variable];
-      if (next->Step < this->Times.size() || !this->Variables[next->Variable].Varies)
+      const std::size_t end = endOfSpan(at, begin);
+      const Span span = spanOf(at, begin, end);
+      this->FirstSpans[onCells] = begin == 0 ? span : this->FirstSpans[onCells];
+      const Part part = this->partAt(variable, step, span);
+      source.File->read(*source.Variable, part.Start, part.Count, read);
+      if (end < at.size())
       {
-        const auto part = this->partAt(next->Variable, next->Step);
-        other.File->prefetch(*other.Variable, part.first, part.second);
+        this->prefetch(variable, step, spanOf(at, end, endOfSpan(at, end)));
+      }
+      for (; begin < end; ++begin)
+      {
+        values[begin] = read[std::size_t(at[begin] - span.First)];
       }
     }
+    this->prefetchAfter(variable, step,
+      [this](std::size_t next) { return this->FirstSpans[this->Variables[next].OnCells]; });
   }
 
 private:
   using Indices = std::vector<std::int64_t>;
+
+  /// Nodes or cells that are read at once.
+  struct Span
+  {
+    std::int64_t First = 0;
+    std::int64_t Count = 0;
+  };
+
+  /// A part of a variable in the file.
+  struct Part
+  {
+    Indices Start;
+    Indices Count;
+  };
 
   struct Source
   {
     NetcdfFile* File;
     const NetcdfVariable* Variable;
     int TimeAxis;
+    int SpaceAxis; ///< of nodes or cells
   };
 
   void setCrs(const NetcdfContent& content)
@@ -166,7 +202,7 @@ private:
     if (same == this->Variables.end())
     {
       this->Variables.push_back(std::move(variable.Described));
-      this->Sources.push_back({ &file, variable.Variable, variable.TimeAxis });
+      this->Sources.push_back({ &file, variable.Variable, variable.TimeAxis, variable.SpaceAxis });
     }
     else if (variable.Described.Varies || same->Varies)
     {
@@ -175,17 +211,64 @@ private:
     }
   }
 
-  std::pair<Indices, Indices> partAt(std::size_t variable, std::size_t step) const
+  Span whole(std::size_t variable) const
+  {
+    return { 0,
+      this->Variables[variable].OnCells ? this->Dimensions.Cells : this->Dimensions.Nodes };
+  }
+
+  /// The end of the indices that are read at once with the one at `begin`: they are near each
+  /// other, and not too many.
+  static std::size_t endOfSpan(const std::vector<std::int32_t>& at, std::size_t begin)
+  {
+    constexpr std::int64_t most = std::int64_t(1) << 20;
+    constexpr std::int64_t gap = std::int64_t(1) << 16;
+    std::size_t end = begin + 1;
+    while (end < at.size() && at[end] < at[begin] + most && at[end] < at[end - 1] + gap)
+    {
+      ++end;
+    }
+    return end;
+  }
+
+  static Span spanOf(const std::vector<std::int32_t>& at, std::size_t begin, std::size_t end)
+  {
+    return { at[begin], std::int64_t(at[end - 1]) + 1 - at[begin] };
+  }
+
+  void prefetch(std::size_t variable, std::size_t step, const Span& span)
   {
     const Source& source = this->Sources[variable];
-    Indices count = source.File->content().shape(*source.Variable);
-    Indices start(count.size(), 0);
+    const Part part = this->partAt(variable, step, span);
+    source.File->prefetch(*source.Variable, part.Start, part.Count);
+  }
+
+  /// Begins to read what follows by the order of the calls up to now.
+  template <typename SpanOf>
+  void prefetchAfter(std::size_t variable, std::size_t step, const SpanOf& spanOfNext)
+  {
+    this->Order.add(variable, step);
+    const auto next = this->Order.next(variable, step);
+    if (next && (next->Step < this->Times.size() || !this->Variables[next->Variable].Varies))
+    {
+      this->prefetch(next->Variable, next->Step, spanOfNext(next->Variable));
+    }
+  }
+
+  Part partAt(std::size_t variable, std::size_t step, const Span& span) const
+  {
+    const Source& source = this->Sources[variable];
+    Part part;
+    part.Count = source.File->content().shape(*source.Variable);
+    part.Start.resize(part.Count.size(), 0);
     if (source.TimeAxis >= 0)
     {
-      start[std::size_t(source.TimeAxis)] = std::int64_t(step);
-      count[std::size_t(source.TimeAxis)] = 1;
+      part.Start[std::size_t(source.TimeAxis)] = std::int64_t(step);
+      part.Count[std::size_t(source.TimeAxis)] = 1;
     }
-    return { start, count };
+    part.Start[std::size_t(source.SpaceAxis)] = span.First;
+    part.Count[std::size_t(source.SpaceAxis)] = span.Count;
+    return part;
   }
 
   std::vector<std::unique_ptr<NetcdfFile>> Files; ///< the first has the mesh
@@ -193,6 +276,7 @@ private:
   MeshDimensions Dimensions;
   std::vector<Source> Sources; ///< of Variables, in their order
   ReadOrder Order;
+  Span FirstSpans[2]; ///< of the last readSome() at nodes, and at cells
 };
 
 } // namespace

@@ -48,7 +48,7 @@ public:
   }
 
 protected:
-  CellMesh readCells() override
+  std::unique_ptr<CellSource> openCells() override
   {
     CellMesh cells;
     const std::vector<char> corners =
@@ -77,7 +77,7 @@ protected:
       cells.XY.push_back(x[i] + this->Origin[0]);
       cells.XY.push_back(y[i] + this->Origin[1]);
     }
-    return cells;
+    return sourceOf(std::move(cells));
   }
 
   void readStored(std::size_t variable, std::size_t step, std::vector<double>& values) override

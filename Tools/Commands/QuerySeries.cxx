@@ -209,7 +209,7 @@ int runStations(const StationArguments& arguments)
       {
         return reportInterrupt();
       }
-      series->read(variable, steps[i], read);
+      series->readAt(variable, steps[i], located.stored(series->Variables[variable]), read);
       if (arguments.NoData)
       {
         std::replace(

@@ -335,15 +335,15 @@ TEST(SeriesAtPoints, InterpolateInTheTriangleOfEachPoint)
   const std::vector<Point3> points = { { 0.31, 0.62, 9 }, { 0.9, 0.05, 0 }, { 3, 3, 0 } };
   const SeriesAtPoints located(series, points, false, 2);
   std::vector<double> read;
-  for (std::size_t i = 0; i < side * side; ++i)
+  for (const std::int32_t node : located.stored(series.Variables[0]))
   {
-    read.push_back(2 * series.XY[2 * i] - series.XY[2 * i + 1]);
+    read.push_back(2 * series.XY[2 * std::size_t(node)] - series.XY[2 * std::size_t(node) + 1]);
   }
   const std::vector<double> values = located.valuesOf(series.Variables[0], read);
   EXPECT_NEAR(0.0, values[0], 1e-14);
   EXPECT_NEAR(1.75, values[1], 1e-14);
   EXPECT_TRUE(std::isnan(values[2]));
-  series.read(3, 0, read);
+  series.readAt(3, 0, located.stored(series.Variables[3]), read);
   EXPECT_EQ(double(located.triangles()[1]), located.valuesOf(series.Variables[3], read)[1]);
   EXPECT_EQ(-1, located.triangles()[2]);
 }
