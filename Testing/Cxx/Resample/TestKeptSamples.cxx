@@ -107,6 +107,45 @@ TEST(KeptSamples, DoNotDependOnThreads)
   }
 }
 
+TEST(KeptSamples, TakeTheValuesThatTheyUseAlone)
+{
+  const Scene scene = jitteredScene(2, 40, 3);
+  const tipp::Lattice lattice = latticeOf(2, 21, 0.2, 0.5);
+  const std::vector<double> values = randomValues(scene.Points.size() / 3, 1);
+  const std::vector<double> ofCells = randomValues(std::size_t(scene.cells()), 2);
+  auto kept = tipp::KeptSamples::find(scene.mesh(), lattice, 2);
+  std::vector<float> all(std::size_t(lattice.samples()));
+  std::vector<float> allOfCells(all.size());
+  kept->fromPoints(values.data(), all.data(), 2);
+  kept->fromCells(ofCells.data(), allOfCells.data(), 2);
+  std::vector<double> used;
+  for (const std::int32_t point : kept->keepPoints(std::int64_t(values.size())))
+  {
+    used.push_back(values[std::size_t(point)]);
+  }
+  std::vector<double> usedOfCells;
+  for (const std::int32_t cell : kept->keepCells(scene.cells()))
+  {
+    usedOfCells.push_back(ofCells[std::size_t(cell)]);
+  }
+  EXPECT_LT(used.size(), values.size() / 4);
+  EXPECT_LT(usedOfCells.size(), ofCells.size() / 4);
+  std::vector<float> samples(all.size());
+  kept->fromPoints(used.data(), samples.data(), 2);
+  EXPECT_EQ(all, samples);
+  kept->fromCells(usedOfCells.data(), samples.data(), 2);
+  EXPECT_EQ(allOfCells, samples);
+  std::vector<std::int32_t> backwards;
+  for (std::size_t i = 0; i < used.size(); ++i)
+  {
+    backwards.push_back(std::int32_t(used.size() - 1 - i));
+  }
+  kept->renumberPoints(backwards);
+  std::reverse(used.begin(), used.end());
+  kept->fromPoints(used.data(), samples.data(), 2);
+  EXPECT_EQ(all, samples);
+}
+
 TEST(KeptSamples, CountThoseInTriangles)
 {
   const Scene scene = jitteredScene(2, 12, 3);

@@ -98,6 +98,20 @@ public:
   int Reads = 0;
 };
 
+/// A basin whose mesh has nodes beyond all triangles.
+class WithFarNodes : public Basin
+{
+public:
+  using Basin::Basin;
+
+  SeriesMesh readMesh() override
+  {
+    SeriesMesh mesh = Basin::readMesh();
+    mesh.XY.insert(mesh.XY.end(), { 50, 60, -70, 80 });
+    return mesh;
+  }
+};
+
 /// Keeps what is written.
 class Kept : public SeriesOutput
 {
@@ -303,6 +317,41 @@ TEST(ResampleSeries, RefusesValuesTooLargeForItsSamples)
   output.Size = std::size_t(samples->Kept.samples());
   expectIOError(
     "basin", "which 32 bits do not hold", [&] { resampleSeries(series, *samples, plan, output); });
+}
+
+TEST(ResampleSeries, HasTheBoundsOfTheTriangles)
+{
+  Basin basin(1);
+  WithFarNodes other(1);
+  SeriesRange range;
+  range.Dimensions = { 30, 20 };
+  const auto samples = findSamples(basin, range, 2);
+  const auto same = findSamples(other, range, 2);
+  EXPECT_EQ(samples->Grid.Min, same->Grid.Min);
+  EXPECT_EQ(samples->Grid.Delta, same->Grid.Delta);
+  EXPECT_EQ(samples->Kept.inside(), same->Kept.inside());
+  EXPECT_GT(samples->Kept.inside(), 400);
+}
+
+TEST(ResampleSeries, HasNoValueWhereTheGridMissesAllTriangles)
+{
+  Basin series(1);
+  SeriesRange range;
+  range.Bounds = Box2{ { -1, -1 }, { 3, 3 } }; // with a sample at each corner
+  range.Dimensions = { 2, 2 };
+  SeriesPlan plan;
+  plan.Variables = { 0, 2 };
+  plan.Steps = { 0 };
+  const auto samples = findSamples(series, range, 1);
+  Kept output;
+  output.Size = 4;
+  ASSERT_TRUE(resampleSeries(series, *samples, plan, output));
+  EXPECT_EQ(0, samples->Kept.inside());
+  for (std::size_t i = 0; i < 4; ++i)
+  {
+    EXPECT_TRUE(std::isnan(output.of(0, 0)[i]));
+    EXPECT_TRUE(std::isnan(output.of(1, 0)[i]));
+  }
 }
 
 TEST(ResampleSeries, NamesARangeBesideTheMesh)
