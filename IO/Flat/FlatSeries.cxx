@@ -118,7 +118,7 @@ public:
     for (std::int64_t begin = 0; begin < this->Mesh.Cells.Tuples; begin += block)
     {
       triangles.FirstCell = begin;
-      cells.read(begin, std::min(begin + block, this->Mesh.Cells.Tuples), triangles.Nodes);
+      cells.read(begin, std::min(block, this->Mesh.Cells.Tuples - begin), triangles.Nodes);
       take(nodes, triangles);
     }
     return nodes;

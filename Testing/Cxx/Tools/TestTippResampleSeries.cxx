@@ -55,6 +55,41 @@ TEST_F(TippResampleSeries, RefusesStepsThatThereAreNot)
   }
 }
 
+TEST_F(TippResampleSeries, NeedsLittleMemoryForTrianglesBesideSamples)
+{
+  // The flat mesh "coast": 1.21 million nodes and twice as many triangles, 50 MB.
+  constexpr std::int32_t side = 1100;
+  std::vector<double> points;
+  std::vector<std::int32_t> cells;
+  for (std::int32_t i = 0; i < side * side; ++i)
+  {
+    points.insert(points.end(), { double(i % side), double(i / side) });
+    if (i % side + 1 < side && i / side + 1 < side)
+    {
+      cells.insert(cells.end(), { i, i + 1, i + side, i + 1, i + 1 + side, i + side });
+    }
+  }
+  std::filesystem::create_directories(this->Folder.path("coast/point_data"));
+  const auto write = [&](const std::string& name, const std::string& descr,
+                       const std::string& shape, const std::string& bytes)
+  { this->Folder.file("coast/" + name + ".npy", npyBytes(npyHeader(descr, shape), bytes)); };
+  write("cells", "<i4", "(" + std::to_string(cells.size() / 3) + ", 3)", bytesOf(cells));
+  write("points", "<f8", "(1210000, 2)", bytesOf(points));
+  write("point_data/level", "<f8", "(2, 1210000)", bytesOf(points));
+  write("time", "<f8", "(2,)", bytesOf(std::vector<double>{ 0, 60 }));
+  const auto peakOf = [this](const std::string& mesh)
+  {
+    const Outcome outcome = runTipp(this->Folder,
+      { "resample", mesh, "-o", "out.npy", "--dims", "20", "20", "--step", "all", "--arrays",
+        "level", "--threads", "2" });
+    EXPECT_EQ(0, outcome.ExitCode) << outcome.Err;
+    const std::string before = "peak memory ";
+    return std::stod(outcome.Out.substr(outcome.Out.find(before) + before.size()));
+  };
+  // The nodes take 19 MB, and a block of cells 25 MB; the whole mesh took 125 MB.
+  EXPECT_LT(peakOf("coast"), peakOf("surge") + 80);
+}
+
 TEST_F(TippResampleSeries, LeavesTrianglesWithADryCornerOut)
 {
   ASSERT_EQ(0,
