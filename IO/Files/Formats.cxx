@@ -66,7 +66,7 @@ constexpr std::array<Format, 35> formats = { {
     "Triangle; the first attribute is z" },
   { ".ele", "", Opener::Triangle, Use::Triangles, "", "" },
   { "", ".ele", Opener::Triangle, Use::WritesTriangles, "", "" },
-  { ".vts .vtr .pvtp .pvtu .pvti .pvts .pvtr .vtk .ply .stl .obj", "", Opener::Vtk, vtkRead, "",
+  { ".vts .vtr .pvtp .pvtu .pvti .pvts .pvtr .vtk .vtkhdf .ply .stl .obj", "", Opener::Vtk, vtkRead, "",
     "" },
   { ".asc", "", Opener::Gdal, Use::Rasters, "AAIGrid", "" },
   { ".flt .bil", "", Opener::Gdal, Use::Rasters, "EHdr", "" },

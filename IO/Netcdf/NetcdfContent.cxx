@@ -60,7 +60,8 @@ int NetcdfContent::findDimension(const std::string& name) const
 {
   const auto found = std::find_if(this->Dimensions.begin(), this->Dimensions.end(),
     [&](const NetcdfDimension& dimension) { return dimension.Name == name; });
-  return found == this->Dimensions.end() ? -1 : int(found - this->Dimensions.begin());
+  return name.empty() || found == this->Dimensions.end() ? -1
+                                                         : int(found - this->Dimensions.begin());
 }
 
 std::vector<std::int64_t> NetcdfContent::shape(const NetcdfVariable& variable) const

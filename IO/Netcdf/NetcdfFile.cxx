@@ -30,14 +30,14 @@ std::string textOf(const Bytes& bytes)
 }
 
 /// Answers requests in the helper: an empty one opens the file, others are a part and its bytes.
-HelperProcess::Answer answerer(const std::string& path)
+HelperProcess::Answer answerer(const std::string& path, const std::string& group)
 {
   const auto library = std::make_shared<NetcdfLibrary>();
-  return [library, path](const std::string& request, SharedMemory& memory) -> std::string
+  return [library, path, group](const std::string& request, SharedMemory& memory) -> std::string
   {
     if (request.empty())
     {
-      return textOf(packed(library->open(path)));
+      return textOf(packed(library->open(path, group)));
     }
     LoadArchive archive(request.data(), request.size());
     NetcdfPart part;
@@ -104,8 +104,9 @@ void checkContent(const std::string& path, const NetcdfContent& content)
 
 } // namespace
 
-NetcdfFile::NetcdfFile(const std::string& path)
+NetcdfFile::NetcdfFile(const std::string& path, const std::string& group)
   : Path(path)
+  , Group(group)
 {
   checkBeginning(path);
   this->start();
@@ -113,7 +114,7 @@ NetcdfFile::NetcdfFile(const std::string& path)
 
 void NetcdfFile::start()
 {
-  this->Helper = std::make_unique<HelperProcess>(answerer(this->Path));
+  this->Helper = std::make_unique<HelperProcess>(answerer(this->Path, this->Group));
   const std::string what = "opening it";
   this->Helper->send({});
   const std::string answer = this->receive(what);
@@ -298,6 +299,18 @@ std::vector<std::int64_t> NetcdfFile::readIntegers(const NetcdfVariable& variabl
     }
   }
   return integers;
+}
+
+void NetcdfFile::readStored(const NetcdfVariable& variable, const std::vector<std::int64_t>& start,
+  const std::vector<std::int64_t>& count, std::vector<char>& bytes)
+{
+  const NetcdfPart part{ variable.Id, start, count };
+  bytes.resize(this->requireNumbers(variable, part) * valueBytes(variable));
+  if (!bytes.empty())
+  {
+    const char* const stored = this->fetch(variable, part, bytes.size());
+    std::copy(stored, stored + bytes.size(), bytes.begin());
+  }
 }
 
 std::string NetcdfFile::readText(const NetcdfVariable& variable)

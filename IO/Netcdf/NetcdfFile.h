@@ -23,7 +23,9 @@ namespace tipp
 class VTKTIPPIO_EXPORT NetcdfFile
 {
 public:
-  explicit NetcdfFile(const std::string& path);
+  /// `group`: a group whose variables are read, with those of the groups in it, whose names are
+  /// before theirs, with slashes; empty: the variables that are in no group.
+  explicit NetcdfFile(const std::string& path, const std::string& group = "");
 
   const std::string& path() const { return this->Path; }
   const NetcdfContent& content() const { return this->Content; }
@@ -43,6 +45,10 @@ public:
   /// Reads a part of a variable so.
   std::vector<std::int64_t> readIntegers(const NetcdfVariable& variable,
     const std::vector<std::int64_t>& start, const std::vector<std::int64_t>& count);
+
+  /// Reads a part of a variable as the bytes of its values in the type of the variable.
+  void readStored(const NetcdfVariable& variable, const std::vector<std::int64_t>& start,
+    const std::vector<std::int64_t>& count, std::vector<char>& bytes);
 
   /// Reads a whole array of characters.
   std::string readText(const NetcdfVariable& variable);
@@ -64,6 +70,7 @@ private:
   void start();
 
   std::string Path;
+  std::string Group;
   NetcdfContent Content;
   std::unique_ptr<HelperProcess> Helper;
   std::optional<NetcdfPart> Pending; ///< asked for and not received

@@ -63,68 +63,112 @@ NetcdfLibrary::~NetcdfLibrary()
   }
 }
 
-NetcdfContent NetcdfLibrary::open(const std::string& path)
+NetcdfContent NetcdfLibrary::open(const std::string& path, const std::string& group)
 {
   // Locks fail on many file systems of clusters, and a model may still be writing the file.
   setenv("HDF5_USE_FILE_LOCKING", "FALSE", 0);
   check(nc_open(path.c_str(), NC_NOWRITE, &this->File));
-  int dimensions = 0;
-  int variables = 0;
-  int attributes = 0;
-  check(nc_inq(this->File, &dimensions, &variables, &attributes, nullptr));
+  int first = this->File;
+  if (!group.empty() && nc_inq_grp_full_ncid(this->File, group.c_str(), &first) != NC_NOERR)
+  {
+    throw std::runtime_error("it has no group '" + group + "'");
+  }
   NetcdfContent content;
-  for (int i = 0; i < dimensions; ++i)
-  {
-    std::array<char, NC_MAX_NAME + 1> name{};
-    std::size_t size = 0;
-    check(nc_inq_dim(this->File, i, name.data(), &size));
-    content.Dimensions.push_back({ name.data(), std::int64_t(size) });
-  }
-  for (int i = 0; i < variables; ++i)
-  {
-    content.Variables.push_back(this->describe(i));
-  }
-  content.Attributes = this->attributesOf(NC_GLOBAL, attributes);
-  this->CacheBytes.assign(std::size_t(variables), 0);
+  this->addGroup(first, "", !group.empty(), content);
+  this->CacheBytes.assign(this->Variables.size(), 0);
   return content;
 }
 
-NetcdfVariable NetcdfLibrary::describe(int id) const
+/// Adds the variables of a group and, if they are wanted, of the groups in it.
+void NetcdfLibrary::addGroup(
+  int group, const std::string& prefix, bool withGroups, NetcdfContent& content)
+{
+  int variables = 0;
+  int attributes = 0;
+  check(nc_inq(group, nullptr, &variables, &attributes, nullptr));
+  addDimensions(group, content);
+  for (int id = 0; id < variables; ++id)
+  {
+    NetcdfVariable variable = describe({ group, id });
+    variable.Name.insert(0, prefix);
+    variable.Id = int(this->Variables.size());
+    content.Variables.push_back(std::move(variable));
+    this->Variables.push_back({ group, id });
+  }
+  for (NetcdfAttribute& attribute : attributesOf({ group, NC_GLOBAL }, attributes))
+  {
+    attribute.Name.insert(0, prefix);
+    content.Attributes.push_back(std::move(attribute));
+  }
+  int count = 0;
+  check(withGroups ? nc_inq_grps(group, &count, nullptr) : NC_NOERR);
+  std::vector<int> groups(std::size_t(count), 0);
+  check(count > 0 ? nc_inq_grps(group, nullptr, groups.data()) : NC_NOERR);
+  for (const int part : groups)
+  {
+    std::array<char, NC_MAX_NAME + 1> name{};
+    check(nc_inq_grpname(part, name.data()));
+    this->addGroup(part, prefix + name.data() + "/", true, content);
+  }
+}
+
+/// Sets the dimensions that a group may use, at the index that is their number.
+void NetcdfLibrary::addDimensions(int group, NetcdfContent& content)
+{
+  int count = 0;
+  check(nc_inq_dimids(group, &count, nullptr, 1));
+  std::vector<int> ids(std::size_t(count), 0);
+  check(count > 0 ? nc_inq_dimids(group, nullptr, ids.data(), 1) : NC_NOERR);
+  constexpr int most = 1 << 20;
+  for (const int id : ids)
+  {
+    if (id < 0 || id > most)
+    {
+      throw std::runtime_error("it has too many dimensions");
+    }
+    std::array<char, NC_MAX_NAME + 1> name{};
+    std::size_t size = 0;
+    check(nc_inq_dim(group, id, name.data(), &size));
+    content.Dimensions.resize(std::max(content.Dimensions.size(), std::size_t(id) + 1));
+    content.Dimensions[std::size_t(id)] = { name.data(), std::int64_t(size) };
+  }
+}
+
+NetcdfVariable NetcdfLibrary::describe(const Variable& of)
 {
   std::array<char, NC_MAX_NAME + 1> name{};
   std::array<int, NC_MAX_VAR_DIMS> dimensions{};
   nc_type type = NC_NAT;
   int count = 0;
   int attributes = 0;
-  check(nc_inq_var(this->File, id, name.data(), &type, &count, dimensions.data(), &attributes));
+  check(nc_inq_var(of.Group, of.Id, name.data(), &type, &count, dimensions.data(), &attributes));
   NetcdfVariable variable;
   variable.Name = name.data();
-  variable.Id = id;
   variable.Type = scalarOfNetcdf(type);
   variable.IsText = type == NC_CHAR;
   variable.Dimensions.assign(dimensions.begin(), dimensions.begin() + count);
-  variable.Attributes = this->attributesOf(id, attributes);
+  variable.Attributes = attributesOf(of, attributes);
   return variable;
 }
 
-std::vector<NetcdfAttribute> NetcdfLibrary::attributesOf(int variable, int count) const
+std::vector<NetcdfAttribute> NetcdfLibrary::attributesOf(const Variable& variable, int count)
 {
   std::vector<NetcdfAttribute> attributes;
   for (int i = 0; i < count; ++i)
   {
-    attributes.push_back(this->attributeOf(variable, i));
+    attributes.push_back(attributeOf(variable, i));
   }
   return attributes;
 }
 
-NetcdfAttribute NetcdfLibrary::attributeOf(int variable, int index) const
+NetcdfAttribute NetcdfLibrary::attributeOf(const Variable& variable, int index)
 {
   constexpr std::size_t mostNumbers = std::size_t(1) << 16; // no convention has longer ones
   std::array<char, NC_MAX_NAME + 1> name{};
-  check(nc_inq_attname(this->File, variable, index, name.data()));
+  check(nc_inq_attname(variable.Group, variable.Id, index, name.data()));
   nc_type type = NC_NAT;
   std::size_t length = 0;
-  check(nc_inq_att(this->File, variable, name.data(), &type, &length));
+  check(nc_inq_att(variable.Group, variable.Id, name.data(), &type, &length));
   NetcdfAttribute attribute;
   attribute.Name = name.data();
   attribute.IsFloat = type == NC_FLOAT;
@@ -135,17 +179,17 @@ NetcdfAttribute NetcdfLibrary::attributeOf(int variable, int index) const
   if (type == NC_CHAR)
   {
     attribute.Text.resize(length);
-    check(nc_get_att_text(this->File, variable, name.data(), attribute.Text.data()));
+    check(nc_get_att_text(variable.Group, variable.Id, name.data(), attribute.Text.data()));
     attribute.Text.erase(std::min(attribute.Text.find('\0'), attribute.Text.size()));
   }
   else if (type == NC_STRING && length <= mostNumbers)
   {
-    attribute.Text = stringAttribute(this->File, variable, name.data(), length);
+    attribute.Text = stringAttribute(variable.Group, variable.Id, name.data(), length);
   }
   else if (scalarOfNetcdf(type) && length <= mostNumbers)
   {
     attribute.Numbers.resize(length);
-    check(nc_get_att_double(this->File, variable, name.data(), attribute.Numbers.data()));
+    check(nc_get_att_double(variable.Group, variable.Id, name.data(), attribute.Numbers.data()));
   }
   return attribute;
 }
@@ -162,10 +206,10 @@ void NetcdfLibrary::enlargeCache(const NetcdfPart& part)
   int storage = NC_CONTIGUOUS;
   nc_type type = NC_NAT;
   std::size_t bytes = 0;
-  const int id = part.Variable;
-  if (nc_inq_var(this->File, id, nullptr, &type, &count, dimensions.data(), nullptr) != 0 ||
-    nc_inq_var_chunking(this->File, id, &storage, chunk.data()) != 0 ||
-    nc_inq_type(this->File, type, nullptr, &bytes) != 0 || storage != NC_CHUNKED ||
+  const auto [file, id] = this->Variables[std::size_t(part.Variable)];
+  if (nc_inq_var(file, id, nullptr, &type, &count, dimensions.data(), nullptr) != 0 ||
+    nc_inq_var_chunking(file, id, &storage, chunk.data()) != 0 ||
+    nc_inq_type(file, type, nullptr, &bytes) != 0 || storage != NC_CHUNKED ||
     std::size_t(count) != part.Count.size())
   {
     return;
@@ -181,7 +225,7 @@ void NetcdfLibrary::enlargeCache(const NetcdfPart& part)
   for (std::size_t i = 0; i < part.Count.size(); ++i)
   {
     std::size_t size = 0;
-    nc_inq_dimlen(this->File, dimensions[i], &size);
+    nc_inq_dimlen(file, dimensions[i], &size);
     const double side = std::max(double(chunk[i]), 1.0);
     const double all = std::ceil(double(size) / side);
     const double touched = std::min(all, std::ceil(double(part.Count[i]) / side) + 1);
@@ -189,12 +233,12 @@ void NetcdfLibrary::enlargeCache(const NetcdfPart& part)
     needed *= along * side;
     chunks *= std::max(along, 1.0);
   }
-  std::size_t& known = this->CacheBytes[std::size_t(id)];
+  std::size_t& known = this->CacheBytes[std::size_t(part.Variable)];
   if (needed > std::max(usual, double(known)) && needed <= most)
   {
     known = std::size_t(needed);
     nc_set_var_chunk_cache(
-      this->File, id, known + std::size_t(usual), std::size_t(10 * chunks) + 1009, 0.75F);
+      file, id, known + std::size_t(usual), std::size_t(10 * chunks) + 1009, 0.75F);
   }
 }
 
@@ -207,7 +251,8 @@ void NetcdfLibrary::read(const NetcdfPart& part, void* to)
   this->enlargeCache(part);
   const std::vector<std::size_t> start(part.Start.begin(), part.Start.end());
   const std::vector<std::size_t> count(part.Count.begin(), part.Count.end());
-  check(nc_get_vara(this->File, part.Variable, start.data(), count.data(), to));
+  const auto [file, id] = this->Variables[std::size_t(part.Variable)];
+  check(nc_get_vara(file, id, start.data(), count.data(), to));
 }
 
 } // namespace tipp

@@ -4,6 +4,7 @@
 
 #include "Netcdf/NetcdfContent.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -41,17 +42,28 @@ public:
   NetcdfLibrary(const NetcdfLibrary&) = delete;
   NetcdfLibrary& operator=(const NetcdfLibrary&) = delete;
 
-  NetcdfContent open(const std::string& path);
+  /// `group` as for NetcdfFile.
+  NetcdfContent open(const std::string& path, const std::string& group);
   /// Reads values in their own type.
   void read(const NetcdfPart& part, void* to);
 
 private:
-  NetcdfVariable describe(int id) const;
-  std::vector<NetcdfAttribute> attributesOf(int variable, int count) const;
-  NetcdfAttribute attributeOf(int variable, int index) const;
+  /// A variable, by its group's number and its own.
+  struct Variable
+  {
+    int Group;
+    int Id;
+  };
+
+  void addGroup(int group, const std::string& prefix, bool withGroups, NetcdfContent& content);
+  static void addDimensions(int group, NetcdfContent& content);
+  static NetcdfVariable describe(const Variable& variable);
+  static std::vector<NetcdfAttribute> attributesOf(const Variable& variable, int count);
+  static NetcdfAttribute attributeOf(const Variable& variable, int index);
   void enlargeCache(const NetcdfPart& part);
 
   int File = -1;
+  std::vector<Variable> Variables;     ///< by NetcdfVariable::Id
   std::vector<std::size_t> CacheBytes; ///< of each variable, as far as it was enlarged
 };
 

@@ -125,7 +125,8 @@ struct SeriesOptions
 VTKTIPPIO_EXPORT std::unique_ptr<MeshSeries> openMeshSeries(
   const std::string& path, const SeriesOptions& options = {});
 
-/// Whether openMeshSeries() opens the file, by its extension.
+/// Whether openMeshSeries() opens the file, by its extension, and for .vtkhdf because it has time
+/// steps.
 VTKTIPPIO_EXPORT bool isMeshSeries(const std::string& path);
 
 /// Returns the index of the variable with this name. Throws IOError if there is none, with the

@@ -2,6 +2,7 @@
 #include "Files/IOError.h"
 #include "Series/NetcdfSeries.h"
 #include "Series/SeriesOutput.h"
+#include "Series/VtkHdfSeries.h"
 
 namespace tipp
 {
@@ -11,6 +12,18 @@ std::unique_ptr<MeshSeries> openNetcdfSeries(const std::string& path, const Seri
   throw IOError(path,
     "is a NetCDF file, which this build of TIPP does not read; install the NetCDF library "
     "(Debian's libnetcdf-dev) and build TIPP again.");
+}
+
+std::unique_ptr<MeshSeries> openVtkHdfSeries(const std::string& path, const SeriesOptions&)
+{
+  throw IOError(path,
+    "is a VTKHDF file, which this build of TIPP does not read; install the NetCDF library "
+    "(Debian's libnetcdf-dev) and build TIPP again.");
+}
+
+bool isVtkHdfSeries(const std::string&)
+{
+  return false;
 }
 
 std::unique_ptr<SeriesOutput> createNetcdfSeries(

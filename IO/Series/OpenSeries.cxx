@@ -5,6 +5,7 @@
 #include "Files/IOError.h"
 #include "Models/ModelMesh.h"
 #include "Series/NetcdfSeries.h"
+#include "Series/VtkHdfSeries.h"
 
 namespace tipp
 {
@@ -25,13 +26,17 @@ std::unique_ptr<MeshSeries> openMeshSeries(const std::string& path, const Series
     case Opener::Triangle:
       return openModelSeries(path, options);
     default:
+      if (isVtkHdfSeries(path))
+      {
+        return openVtkHdfSeries(path, options);
+      }
       refuseKind(path, "has no extension that tells a kind of mesh of a model.");
   }
 }
 
 bool isMeshSeries(const std::string& path)
 {
-  return isModelMesh(path);
+  return isModelMesh(path) || isVtkHdfSeries(path);
 }
 
 void refuseValues(const std::string& path, const SeriesOptions& options)

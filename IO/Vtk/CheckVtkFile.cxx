@@ -492,7 +492,8 @@ void checkVtkFile(const std::string& path)
     LegacyCheck(path).run();
   }
   // The names of VTK's XML kinds, and no others here, contain "vt": .vtu, .pvtu ...
-  else if (isOpenedBy(path, Opener::Vtk) && extension.find("vt") != std::string::npos)
+  else if (extension != ".vtkhdf" && isOpenedBy(path, Opener::Vtk) &&
+    extension.find("vt") != std::string::npos)
   {
     XmlCheck(path).run();
   }

@@ -6,6 +6,7 @@
 #include "Files/InputFile.h"
 #include "Files/TextFile.h"
 #include "Files/VtkXml.h"
+#include "Vtk/ReadVtkHdf.h"
 
 #include "vtkAbstractArray.h"
 #include "vtkCellType.h"
@@ -135,6 +136,7 @@ const std::map<std::string, ReadFunction>& readFunctions()
     { ".stl", readWith<vtkSTLReader> },
     { ".vti", readWith<vtkXMLImageDataReader> },
     { ".vtk", readWith<vtkDataSetReader> },
+    { ".vtkhdf", readVtkHdf },
     { ".vtp", readWith<vtkXMLPolyDataReader> },
     { ".vtr", readWith<vtkXMLRectilinearGridReader> },
     { ".vts", readWith<vtkXMLStructuredGridReader> },

@@ -389,7 +389,8 @@ int describePoints(const InfoArguments& arguments)
 
 bool isModelOutput(const std::string& path)
 {
-  return isOpenedBy(path, Opener::Netcdf) || isOpenedBy(path, Opener::Selafin);
+  return isOpenedBy(path, Opener::Netcdf) || isOpenedBy(path, Opener::Selafin) ||
+    (isOpenedBy(path, Opener::Vtk) && isMeshSeries(path));
 }
 
 int runInfo(const InfoArguments& arguments)

@@ -21,11 +21,18 @@ public:
   explicit NetcdfWriter(std::string path, int format = NC_NETCDF4)
     : Path(std::move(path))
   {
-    check(nc_create(this->Path.c_str(), format | NC_CLOBBER, &this->File));
+    check(nc_create(this->Path.c_str(), format | NC_CLOBBER, &this->Root));
+    this->File = this->Root;
   }
   ~NetcdfWriter() { this->close(); }
   NetcdfWriter(const NetcdfWriter&) = delete;
   NetcdfWriter& operator=(const NetcdfWriter&) = delete;
+
+  /// Begins a group: what is defined next is in it.
+  void group(const std::string& name, int in = -1)
+  {
+    check(nc_def_grp(in < 0 ? this->Root : in, name.c_str(), &this->File));
+  }
 
   int dimension(const std::string& name, std::size_t size)
   {
@@ -74,10 +81,10 @@ public:
 
   const std::string& close()
   {
-    if (this->File >= 0)
+    if (this->Root >= 0)
     {
-      check(nc_close(this->File));
-      this->File = -1;
+      check(nc_close(this->Root));
+      this->Root = -1;
     }
     return this->Path;
   }
@@ -92,7 +99,8 @@ public:
 
 private:
   std::string Path;
-  int File = -1;
+  int Root = -1; ///< the file
+  int File = -1; ///< the group
 };
 
 } // namespace test
