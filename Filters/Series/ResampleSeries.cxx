@@ -150,7 +150,8 @@ SeriesDescription describeSeries(
     }
     for (std::size_t k = 0; variable.Varies && k < plan.Reductions.size(); ++k)
     {
-      description.Fields.push_back(plan.Reductions[k].fieldOf(field, series.TimeUnits));
+      description.Fields.push_back(plan.Reductions[k].fieldOf(
+        field, series.TimeUnits, description.Times.empty() ? 0 : description.Times.front()));
     }
   }
   return description;

@@ -222,7 +222,7 @@ private:
   static std::vector<std::int64_t> shapeOf(const SeriesDescription& of)
   {
     std::vector<std::int64_t> shape = { of.Grid.size(1), of.Grid.size(0) };
-    if (of.Fields[0].Varies)
+    if (of.Fields[0].Varies && !of.IsOneStep)
     {
       shape.insert(shape.begin(), std::int64_t(of.Times.size()));
     }

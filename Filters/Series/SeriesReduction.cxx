@@ -36,6 +36,14 @@ std::string unitOf(const std::string& timeUnits)
   return timeUnits.substr(0, timeUnits.find(' '));
 }
 
+/// When the first step is, in brackets; empty if the file does not say.
+std::string dateOf(double first, const std::string& timeUnits)
+{
+  return timeUnits.find(" since ") == std::string::npos
+    ? ""
+    : " (" + shortText(first) + " " + timeUnits + ")";
+}
+
 std::string shortest(double value)
 {
   std::ostringstream text;
@@ -66,7 +74,8 @@ std::optional<SeriesReduction> SeriesReduction::parse(const std::string& text)
   return std::nullopt;
 }
 
-SeriesField SeriesReduction::fieldOf(const SeriesField& field, const std::string& timeUnits) const
+SeriesField SeriesReduction::fieldOf(
+  const SeriesField& field, const std::string& timeUnits, double first) const
 {
   const std::string name = field.LongName.empty() ? field.Name : field.LongName;
   switch (this->Kind)
@@ -78,7 +87,8 @@ SeriesField SeriesReduction::fieldOf(const SeriesField& field, const std::string
     case Of::Mean:
       return { field.Name + "_mean", "mean of " + name, field.Units, false };
     case Of::TimeOfMaximum:
-      return { field.Name + "_time_of_max", "time from the first step to the maximum of " + name,
+      return { field.Name + "_time_of_max",
+        "time from the first step" + dateOf(first, timeUnits) + " to the maximum of " + name,
         unitOf(timeUnits), false };
     case Of::TimeAbove:
       break;

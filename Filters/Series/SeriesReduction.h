@@ -32,9 +32,10 @@ struct SeriesReduction
   /// Reads "max", "min", "mean", "time-of-max" or "above:LEVEL"; nothing for any other text.
   VTKTIPPFILTERS_EXPORT static std::optional<SeriesReduction> parse(const std::string& text);
 
-  /// The field that this makes of another one. `timeUnits` as in SeriesDescription.
+  /// The field that this makes of another one. `timeUnits` as in SeriesDescription; `first`: the
+  /// time of the first step.
   VTKTIPPFILTERS_EXPORT SeriesField fieldOf(
-    const SeriesField& field, const std::string& timeUnits) const;
+    const SeriesField& field, const std::string& timeUnits, double first = 0) const;
 };
 
 /// Computes a reduction as steps arrive. A step stands for the time from half way after the step

@@ -2,6 +2,7 @@
 #include "Adcirc/AdcircValues.h"
 
 #include "Adcirc/ListDirectedRows.h"
+#include "Files/IOError.h"
 
 #include <string>
 #include <utility>
@@ -47,14 +48,35 @@ public:
     }
     this->Result.Components = int(components);
     this->LastStep.assign(std::size_t(this->Nodes), -1);
-    for (std::int64_t step = 0; step < steps; ++step)
+    for (std::int64_t step = 0; step < steps && !this->Result.IsCutOff; ++step)
     {
-      this->readStep(step);
+      this->readStepOrEnd(step);
     }
     return std::move(this->Result);
   }
 
 private:
+  /// Reads a step, unless the file ends in it and there are steps before.
+  void readStepOrEnd(std::int64_t step)
+  {
+    const std::size_t values = this->Result.Values.size();
+    const std::size_t times = this->Result.Times.size();
+    try
+    {
+      this->readStep(step);
+    }
+    catch (const IOError&)
+    {
+      this->Result.IsCutOff = step > 0 && (this->HasFewLines || this->Rows.isCutOff());
+      if (!this->Result.IsCutOff)
+      {
+        throw;
+      }
+      this->Result.Values.resize(values);
+      this->Result.Times.resize(times);
+    }
+  }
+
   void readStep(std::int64_t step)
   {
     this->Rows.next(2, "a step");
@@ -63,6 +85,7 @@ private:
       this->Rows.fields() >= 4 && this->Rows.isNumber(2) && this->Rows.isNumber(3);
     const std::int64_t given = sparse ? this->Rows.integer(2) : this->Nodes;
     const std::int64_t lines = this->Rows.remainingLines();
+    this->HasFewLines = given >= 0 && given <= this->Nodes && given > lines;
     if (given < 0 || given > this->Nodes || given > lines)
     {
       this->Rows.fail("announces " + std::to_string(given) + " nodes, but " +
@@ -105,6 +128,7 @@ private:
   const AdcircGrid& Grid;
   ListDirectedRows Rows;
   std::int64_t Nodes = 0;
+  bool HasFewLines = false;           ///< the file ends in the step that is read
   std::vector<std::int64_t> LastStep; ///< the last step that gave the node, or -1
   AdcircValues Result;
 };

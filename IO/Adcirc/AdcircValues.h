@@ -14,10 +14,11 @@ namespace tipp
 /// title; the numbers of steps and nodes, two unused numbers, and the number of values per node;
 /// for each step a line of time and time step, and a line `node value...` per node. A step may give
 /// a number of nodes and a default value on its first line, and then only the nodes that differ.
-/// Nodes are identified by the grid's node numbers. A file with fewer steps than announced, as from
-/// an interrupted run, is rejected.
+/// Nodes are identified by the grid's node numbers. A file may end before its last step is
+/// complete, as after an interrupted run.
 struct AdcircValues
 {
+  bool IsCutOff = false;     ///< the file has fewer steps than it announces; one at least
   int Components = 1;        ///< values per node
   std::vector<double> Times; ///< times of the steps, in seconds
   std::vector<double>

@@ -61,6 +61,7 @@ void ListDirectedRows::next(std::size_t fields, const char* what)
     std::string_view line;
     if (!this->Lines.next(line))
     {
+      this->IsBeyondEnd = true;
       if (before > 0)
       {
         failShort();
@@ -77,6 +78,13 @@ void ListDirectedRows::next(std::size_t fields, const char* what)
   {
     failShort();
   }
+}
+
+bool ListDirectedRows::isCutOff() const
+{
+  const bool isAtEnd = this->rest().find_first_not_of(" \t\r\n") == std::string_view::npos;
+  const bool hasEnd = !this->Text.empty() && this->Text.back() == '\n';
+  return isAtEnd && (!hasEnd || this->IsBeyondEnd);
 }
 
 void ListDirectedRows::addLine(std::string_view line)

@@ -42,6 +42,9 @@ public:
   /// An upper bound of the number of lines after the row.
   std::int64_t remainingLines() const { return this->Total - this->Lines.lineNumber(); }
 
+  /// Whether all lines have been read, and nothing follows or the last one has no end.
+  bool isCutOff() const;
+
   [[noreturn]] void fail(const std::string& problem) const;
 
 private:
@@ -59,6 +62,7 @@ private:
   std::vector<std::string_view> Row; ///< an empty text: no value is given
   bool ExpectsValue = true;          ///< no value since the row's beginning or the last comma
   bool IsEnded = false;              ///< by a slash
+  bool IsBeyondEnd = false;          ///< a row after the last line was asked for
 };
 
 } // namespace tipp

@@ -56,8 +56,8 @@ constexpr std::array<Format, 35> formats = { {
   { ".gr3", "", Opener::Adcirc, Use::Points | Use::Constraints | Use::Triangles |
       Use::WritesTriangles, "", "SCHISM" },
   { ".2dm", "", Opener::Sms, Use::Points | Use::Triangles | Use::WritesTriangles, "", "SMS" },
-  { ".nc", ".nc4 .cdf", Opener::Netcdf, Use::Points | Use::Triangles | Use::WritesSeries, "",
-    "" },
+  { ".nc", ".nc4 .cdf", Opener::Netcdf, Use::Points | Use::Triangles | Use::WritesTriangles |
+      Use::WritesSeries, "", "" },
   { ".slf", ".ser .sel", Opener::Selafin, Use::Points | Use::Triangles, "",
     "the nodes of models; NetCDF if it is built in" },
   { ".msh", "", Opener::Gmsh, Use::Points | Use::Triangles | Use::WritesTriangles, "",

@@ -12,6 +12,7 @@
 #include "Models/TriangleFiles.h"
 #include "Npy/NpyFile.h"
 #include "Points/ReadPoints.h"
+#include "Series/WriteUgrid.h"
 
 #include <algorithm>
 #include <limits>
@@ -251,6 +252,42 @@ bool (*textWriterOf(Opener opener))(
 
 } // namespace
 
+namespace
+{
+
+UgridContent ugridOf(
+  const PointTable& points, const TrianglesView& triangles, const MeshOptions& options)
+{
+  UgridContent content;
+  content.Nodes = std::int64_t(points.size());
+  content.Triangles = std::int64_t(triangles.size());
+  content.Node = [&points](std::int64_t node) {
+    return Point2{ points.XY[2 * std::size_t(node)], points.XY[2 * std::size_t(node) + 1] };
+  };
+  content.Corner = [&triangles](std::int64_t triangle, int corner)
+  { return triangles.id(std::size_t(triangle), corner); };
+  for (const PointTable::Column& column : points.Columns)
+  {
+    content.Arrays.push_back({ column.Name, "", "", Scalar::Float64, false, false,
+      [&column](std::size_t) { return column.Values.data(); } });
+  }
+  const std::vector<std::int64_t>& ids = options.Representatives;
+  if (!ids.empty())
+  {
+    content.Arrays.push_back({ "RepresentativePointId", "", "", Scalar::Int64, false, false,
+      [&ids](std::size_t) { return ids.data(); } });
+  }
+  const std::vector<std::int64_t>& regions = options.Regions;
+  if (!regions.empty())
+  {
+    content.Arrays.push_back({ "Region", "", "", Scalar::Int64, true, false,
+      [&regions](std::size_t) { return regions.data(); } });
+  }
+  return content;
+}
+
+} // namespace
+
 bool writeMesh(const std::string& path, const PointTable& points, TrianglesView triangles,
   const MeshOptions& options)
 {
@@ -265,6 +302,10 @@ bool writeMesh(const std::string& path, const PointTable& points, TrianglesView 
   {
     return triangles.withIds(
       [&](const auto* ids) { return writeNpy(path, ids, triangles.size(), 3, options); });
+  }
+  if (opener == Opener::Netcdf)
+  {
+    return writeUgrid(path, ugridOf(points, triangles, options), options.Before, options.Aborted);
   }
   if (const auto writer = textWriterOf(opener))
   {

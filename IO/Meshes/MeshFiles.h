@@ -57,9 +57,9 @@ VTKTIPPIO_EXPORT bool holdsTriangles(const std::string& path);
 
 /// Writes triangles by the path's extension: .npy (m x 3 int64 point ids; points are not written),
 /// .vtp or .vtu (appended raw binary: all points, the column named z as third coordinate or else 0,
-/// the other columns as point data), or as text for models (.14, .grd, .gr3, .2dm, .msh, .node or
-/// .ele: see Meshes/TextMeshes.h). The file appears only when it is complete. Returns false if
-/// Aborted returned true; throws IOError.
+/// the other columns as point data), as NetCDF by UGRID (.nc: all columns), or as text for models
+/// (.14, .grd, .gr3, .2dm, .msh, .node or .ele: see Meshes/TextMeshes.h). The file appears only
+/// when it is complete. Returns false if Aborted returned true; throws IOError.
 VTKTIPPIO_EXPORT bool writeMesh(const std::string& path, const PointTable& points,
   TrianglesView triangles, const MeshOptions& options = {});
 

@@ -43,6 +43,12 @@ std::unique_ptr<MeshSeries> openAdcircSeries(const std::string& path, const Seri
     variable.Mark = dry;
     variable.Varies = values.Times.size() > 1;
     series->TimeUnits = variable.Varies ? "seconds" : series->TimeUnits;
+    if (values.IsCutOff)
+    {
+      series->LeftOut.push_back({ "step " + std::to_string(values.Times.size()),
+        "of " + std::filesystem::path(file).filename().string() +
+          " is not complete: the file ends in it, as after an interrupted run" });
+    }
     series->addValues(file, variable, values.Components, std::move(values.Values), values.Times);
   }
   return series;

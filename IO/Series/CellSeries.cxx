@@ -36,7 +36,7 @@ void CellSeries::setSize(std::int64_t nodes, std::int64_t cells)
 
 SeriesNodes CellSeries::readTriangles(const TakeTriangles& take)
 {
-  const std::unique_ptr<CellSource> source = this->openCells();
+  const std::unique_ptr<CellBlocks> source = this->openCells();
   SeriesNodes nodes = source->readNodes();
   CellCutter cutter(std::move(nodes), source->IsInDegrees, this->Wrap, this->Path);
   CellBlock block;
@@ -91,7 +91,7 @@ void append(SeriesMesh& mesh, SeriesTriangles triangles, std::int64_t count)
 
 void CellSeries::prepare()
 {
-  const std::unique_ptr<CellSource> source = this->openCells();
+  const std::unique_ptr<CellBlocks> source = this->openCells();
   CellCutter cutter(source->readNodes(), source->IsInDegrees, this->Wrap, this->Path);
   SeriesMesh mesh;
   CellBlock block;

@@ -32,7 +32,7 @@ protected:
   {
   }
 
-  virtual std::unique_ptr<CellSource> openCells() = 0;
+  virtual std::unique_ptr<CellBlocks> openCells() = 0;
   /// Reads a variable's values at the nodes or cells of the file.
   virtual void readStored(std::size_t variable, std::size_t step, std::vector<double>& values) = 0;
   /// Reads a variable's values at some of them, at ascending indices that are all in the file.

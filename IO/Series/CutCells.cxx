@@ -22,7 +22,7 @@ constexpr double turn = 360;
 
 using Corners = std::vector<std::int64_t>;
 
-class WholeCells : public CellSource
+class WholeCells : public CellBlocks
 {
 public:
   explicit WholeCells(CellMesh cells)
@@ -56,7 +56,7 @@ private:
 
 } // namespace
 
-std::unique_ptr<CellSource> sourceOf(CellMesh cells)
+std::unique_ptr<CellBlocks> sourceOf(CellMesh cells)
 {
   return std::make_unique<WholeCells>(std::move(cells));
 }

@@ -41,10 +41,10 @@ struct CellBlock
 };
 
 /// Reads the cells of a file block by block.
-class CellSource
+class CellBlocks
 {
 public:
-  virtual ~CellSource() = default;
+  virtual ~CellBlocks() = default;
   /// Reads the nodes; called once, first. Throws IOError.
   virtual SeriesNodes readNodes() = 0;
   /// Reads the next cells; false after the last ones. Throws IOError.
@@ -56,7 +56,7 @@ public:
 };
 
 /// Cells that are in memory, as one block.
-std::unique_ptr<CellSource> sourceOf(CellMesh cells);
+std::unique_ptr<CellBlocks> sourceOf(CellMesh cells);
 
 /// Cuts the cells of a file into triangles. Cells without corners are left out. Where `wrap`, cells
 /// that cross the meridian at which longitudes jump are in the mesh twice: on either side of it,

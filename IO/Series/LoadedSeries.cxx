@@ -75,7 +75,7 @@ void LoadedSeries::addValues(const std::string& path, const SeriesVariable& vari
   this->Values.push_back(std::move(values));
 }
 
-std::unique_ptr<CellSource> LoadedSeries::openCells()
+std::unique_ptr<CellBlocks> LoadedSeries::openCells()
 {
   CellMesh cells;
   cells.XY = this->Mesh.XY;

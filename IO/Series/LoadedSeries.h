@@ -28,7 +28,7 @@ public:
     std::vector<double> values, const std::vector<double>& times);
 
 protected:
-  std::unique_ptr<CellSource> openCells() override;
+  std::unique_ptr<CellBlocks> openCells() override;
   void readStored(std::size_t variable, std::size_t step, std::vector<double>& values) override;
 
 private:

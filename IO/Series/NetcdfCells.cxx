@@ -119,7 +119,7 @@ private:
 };
 
 /// Reads the corners of the cells block by block, and decides with which number nodes begin.
-class NetcdfCells : public CellSource
+class NetcdfCells : public CellBlocks
 {
 public:
   NetcdfCells(NetcdfFile& file, const NetcdfMesh& mesh)
@@ -295,7 +295,7 @@ private:
 
 } // namespace
 
-std::unique_ptr<CellSource> openNetcdfCells(NetcdfFile& file, const NetcdfMesh& mesh)
+std::unique_ptr<CellBlocks> openNetcdfCells(NetcdfFile& file, const NetcdfMesh& mesh)
 {
   return std::make_unique<NetcdfCells>(file, mesh);
 }

@@ -48,7 +48,7 @@ void setMeshDimensions(const std::string& path, const NetcdfContent& content, Ne
 
 /// Reads the nodes and cells, which throws IOError, with the cell, for corners that are not nodes.
 /// The file and the mesh must outlive the result.
-std::unique_ptr<CellSource> openNetcdfCells(NetcdfFile& file, const NetcdfMesh& mesh);
+std::unique_ptr<CellBlocks> openNetcdfCells(NetcdfFile& file, const NetcdfMesh& mesh);
 
 /// Whether the coordinates are longitudes and latitudes.
 bool isInDegrees(const NetcdfMesh& mesh);

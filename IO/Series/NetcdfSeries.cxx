@@ -82,7 +82,7 @@ public:
   }
 
 protected:
-  std::unique_ptr<CellSource> openCells() override
+  std::unique_ptr<CellBlocks> openCells() override
   {
     return openNetcdfCells(*this->Files.front(), this->Mesh);
   }

@@ -7,7 +7,10 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <numeric>
+#include <optional>
+#include <utility>
 
 namespace tipp
 {
@@ -61,6 +64,78 @@ bool readFvcomTimes(NetcdfFile& file, NetcdfTime& time)
   return true;
 }
 
+/// The days from a fixed one to a date, by the Gregorian calendar, with or without leap days (as in
+/// Hinnant, chrono-Compatible Low-Level Date Algorithms).
+std::int64_t daysOf(std::int64_t year, std::int64_t month, std::int64_t day, bool hasLeapDays)
+{
+  const std::int64_t y = month <= 2 ? year - 1 : year;
+  const std::int64_t dayOfYear = (153 * (month + (month > 2 ? -3 : 9)) + 2) / 5 + day - 1;
+  const std::int64_t leapDays = y / 4 - y / 100 + y / 400;
+  return 365 * y + (hasLeapDays ? leapDays : 0) + dayOfYear;
+}
+
+/// Reads "2000-01-31_12:30:00" as seconds of its calendar; nothing if it is not so.
+std::optional<double> secondsOf(const std::string& text, bool hasLeapDays)
+{
+  int year = 0;
+  int month = 0;
+  int day = 0;
+  int hour = 0;
+  int minute = 0;
+  double second = 0;
+  constexpr int parts = 6;
+  if (std::sscanf(text.c_str(), "%5d-%2d-%2d%*1[_ T]%2d:%2d:%lf", &year, &month, &day, &hour,
+        &minute, &second) != parts ||
+    year < 0 || month < 1 || month > 12 || day < 1 || day > 31 || hour < 0 || hour > 24 ||
+    minute < 0 || minute > 59 || !(second >= 0 && second < 61))
+  {
+    return std::nullopt;
+  }
+  const std::int64_t days = daysOf(year, month, day, hasLeapDays);
+  return double(days * 86400 + hour * 3600 + minute * 60) + second;
+}
+
+/// The times of MPAS: the text "xtime", a date a step. They become seconds since the first one.
+bool readMpasTimes(NetcdfFile& file, NetcdfTime& time)
+{
+  const NetcdfContent& content = file.content();
+  const NetcdfVariable* const dates = content.find("xtime");
+  if (!dates || !dates->IsText || dates->Dimensions.size() != 2 ||
+    content.size(dates->Dimensions[0]) == 0 || content.size(dates->Dimensions[1]) == 0)
+  {
+    return false;
+  }
+  std::string calendar;
+  for (const NetcdfAttribute& attribute : content.Attributes)
+  {
+    calendar = attribute.Name == "config_calendar_type" ? attribute.Text : calendar;
+  }
+  const bool hasLeapDays = calendar.find("noleap") == std::string::npos;
+  const std::string text = file.readText(*dates);
+  const auto length = std::size_t(content.size(dates->Dimensions[1]));
+  std::vector<double> values;
+  for (std::size_t at = 0; at + length <= text.size(); at += length)
+  {
+    const std::optional<double> value = secondsOf(text.substr(at, length), hasLeapDays);
+    if (!value)
+    {
+      return false;
+    }
+    values.push_back(*value);
+  }
+  const double origin = values.front();
+  std::transform(values.begin(), values.end(), values.begin(),
+    [origin](double value) { return value - origin; });
+  constexpr std::size_t dateLength = 19;
+  std::string first = text.substr(0, dateLength);
+  std::replace(first.begin(), first.end(), '_', ' ');
+  time.Dimension = dates->Dimensions[0];
+  time.Values = std::move(values);
+  time.Units = "seconds since " + first;
+  time.Calendar = hasLeapDays ? "" : "noleap";
+  return true;
+}
+
 /// The dimension that is called time; -1 if there is none.
 int dimensionOfTime(const NetcdfContent& content)
 {
@@ -86,6 +161,11 @@ NetcdfTime readNetcdfTime(NetcdfFile& file)
     best = timeRank(variable) > (best ? timeRank(*best) : 0) ? &variable : best;
   }
   NetcdfTime time;
+  if ((!best || unitsOf(*best).find(" since ") == std::string::npos) && readMpasTimes(file, time))
+  {
+    checkTimes(file.path(), time.Values);
+    return time;
+  }
   if (!best)
   {
     time.Dimension = dimensionOfTime(content);

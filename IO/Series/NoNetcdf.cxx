@@ -3,6 +3,7 @@
 #include "Series/NetcdfSeries.h"
 #include "Series/SeriesOutput.h"
 #include "Series/VtkHdfSeries.h"
+#include "Series/WriteUgrid.h"
 
 namespace tipp
 {
@@ -32,6 +33,14 @@ std::unique_ptr<SeriesOutput> createNetcdfSeries(
   throw IOError(path,
     "cannot be written: this build has no NetCDF; install the NetCDF library (Debian's "
     "libnetcdf-dev) and build again, or write .tif, .npy or .pvd.");
+}
+
+bool writeUgrid(const std::string& path, const UgridContent&, const std::optional<PathState>&,
+  const std::function<bool()>&)
+{
+  throw IOError(path,
+    "cannot be written: this build has no NetCDF; install the NetCDF library (Debian's "
+    "libnetcdf-dev) and build again, or write another format.");
 }
 
 } // namespace tipp

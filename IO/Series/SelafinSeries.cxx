@@ -48,7 +48,7 @@ public:
   }
 
 protected:
-  std::unique_ptr<CellSource> openCells() override
+  std::unique_ptr<CellBlocks> openCells() override
   {
     CellMesh cells;
     const std::vector<char> corners =

@@ -33,8 +33,9 @@ struct SeriesDescription
   std::string Calendar;      ///< in the manner of CF; empty: the standard one
   std::string Crs;           ///< any text that GDAL understands; may be empty
   std::string Source;        ///< what the samples come from, such as the name of a file
-  double NoData = -9999;     ///< value of a GeoTIFF's pixels without data
-  int Threads = 1;           ///< threads that compress, where that is possible
+  bool IsOneStep = false; ///< one step that was asked for by its number: .npy has no axis of time
+  double NoData = -9999;  ///< value of a GeoTIFF's pixels without data
+  int Threads = 1;        ///< threads that compress, where that is possible
 };
 
 /// Writes fields on a grid step by step. What it writes appears only when it is complete; without

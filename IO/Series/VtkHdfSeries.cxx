@@ -2,6 +2,7 @@
 #include "Series/VtkHdfSeries.h"
 
 #include "Files/IOError.h"
+#include "Files/InputFile.h"
 #include "Files/RawValues.h"
 #include "Hdf/VtkHdfFile.h"
 #include "Series/CellSeries.h"
@@ -73,7 +74,7 @@ public:
   }
 
 protected:
-  std::unique_ptr<CellSource> openCells() override
+  std::unique_ptr<CellBlocks> openCells() override
   {
     const HdfValues points = this->File.readPoints(0);
     const std::vector<double> x = componentOf(points, 0);

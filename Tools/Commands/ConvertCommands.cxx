@@ -5,14 +5,21 @@
 #include "Commands/SeriesReport.h"
 #include "Commands/VtkFiles.h"
 #include "Console/Process.h"
+#include "Files/Formats.h"
 #include "Files/OutputFile.h"
 #include "Files/PendingOutput.h"
 #include "Files/RequireApart.h"
 #include "Flat/FlatMesh.h"
+#include "Flat/FlatSeries.h"
+#include "Flat/FlatUgrid.h"
 #include "Flat/FlattenDataSet.h"
+#include "Partitioned/PartitionedMesh.h"
+#include "Partitioning/FlattenPieces.h"
 #include "Partitioning/PartitionMesh.h"
 #include "Ranks/Communicator.h"
+#include "Raster/RasterFile.h"
 #include "Series/MeshSeries.h"
+#include "Series/WriteUgrid.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -33,8 +40,9 @@ constexpr const char* flattenFooter =
         (.gr3), SMS (.2dm), Gmsh (.msh) or Triangle (.node, .ele), or the output of a
         model: SELAFIN (.slf), or NetCDF (.nc) by UGRID, ADCIRC, SCHISM, FVCOM, FESOM
         or MPAS. Its time steps are read one after another.
-FOLDER  cells.npy, points.npy, point_data/NAME.npy, cell_data/NAME.npy and, for
-        values that vary in time, time.npy. It must not exist yet.
+        A partitioned mesh (.tipp) or, for .nc, a flat mesh.
+OUTPUT  a folder that does not exist yet: cells.npy, points.npy, point_data/NAME.npy, cell_data/NAME.npy and, for
+        values that vary in time, time.npy. Or a mesh of triangles in NetCDF by UGRID (.nc).
 
 Other cells are cut into triangles or tetrahedra. Cells of a lower dimension, ghost
 cells and arrays of strings are left out. The command reports the cells that it has cut
@@ -45,6 +53,7 @@ Examples:
   tipp flatten bracket.vtu -o bracket
   tipp flatten fort.14 -o surge --values fort.63 --values maxele.63
   tipp flatten fort.63.nc -o surge
+  tipp flatten mesh.tipp -o mesh.nc --crs EPSG:32617
   tipp flatten fesom.mesh.diag.nc -o sst --values sst.1948.nc --wrap
 )";
 
@@ -54,7 +63,14 @@ struct FlattenArguments
   std::string Output;
   std::vector<std::string> Values;
   bool Wrap = false;
+  std::string Crs;
+  PathState Before; ///< of the output, if it is a file
 };
+
+bool isFile(const FlattenArguments& arguments)
+{
+  return openerOf(arguments.Output, Use::WritesTriangles) == Opener::Netcdf;
+}
 
 /// `leftOut` and `ghostCells`: as in Flattened.
 void warnOfCellsLeftOut(const std::string& input,
@@ -84,9 +100,27 @@ void reportCut(const FlattenArguments& arguments, const Flattened& flattened)
   }
 }
 
-/// Writes the folder. Returns the exit code.
+/// Writes the file. Returns the exit code.
+int writeFile(const FlattenArguments& arguments, UgridContent content)
+{
+  content.Crs = arguments.Crs.empty() ? content.Crs : arguments.Crs;
+  if (!writeUgrid(arguments.Output, content, arguments.Before, isInterrupted))
+  {
+    return reportInterrupt();
+  }
+  fmt::print("{} triangles, {} points, {} arrays{} in {}\n", content.Triangles, content.Nodes,
+    content.Arrays.size(),
+    content.Times.empty() ? "" : fmt::format(", {} steps", content.Times.size()), arguments.Output);
+  return Success;
+}
+
+/// Writes the folder or file. Returns the exit code.
 int writeContent(const FlattenArguments& arguments, const FlatContent& content)
 {
+  if (isFile(arguments))
+  {
+    return writeFile(arguments, ugridOf(content, arguments.Input));
+  }
   if (!writeFlatMesh(arguments.Output, content, isInterrupted))
   {
     return reportInterrupt();
@@ -101,9 +135,11 @@ int writeContent(const FlattenArguments& arguments, const FlatContent& content)
 
 int flattenModelOutput(const FlattenArguments& arguments)
 {
-  const auto series = openMeshSeries(arguments.Input, { arguments.Values, arguments.Wrap });
-  const FlatContent content = flattenSeries(*series);
-  const int code = writeContent(arguments, content);
+  const auto series = isMeshSeries(arguments.Input)
+    ? openMeshSeries(arguments.Input, { arguments.Values, arguments.Wrap })
+    : openFlatSeries(arguments.Input);
+  const int code = isFile(arguments) ? writeFile(arguments, ugridOf(*series))
+                                     : writeContent(arguments, flattenSeries(*series));
   if (code == Success)
   {
     warnOfVariablesLeftOut(*series);
@@ -111,19 +147,37 @@ int flattenModelOutput(const FlattenArguments& arguments)
   return code;
 }
 
-int runFlatten(const FlattenArguments& arguments)
+/// Checks the paths before the computation.
+void checkPaths(FlattenArguments& arguments)
 {
+  std::vector<std::string> inputs = arguments.Values;
+  inputs.push_back(arguments.Input);
+  if (isFile(arguments))
   {
-    // Check the paths before the computation.
-    std::vector<std::string> inputs = arguments.Values;
-    inputs.push_back(arguments.Input);
-    requireApart({ arguments.Output }, inputs);
-    requireFolderName(arguments.Output);
-    const PendingFolder writable(arguments.Output);
+    arguments.Before = requireWritable(arguments.Output, "", inputs);
+    return;
   }
-  if (isMeshSeries(arguments.Input))
+  requireApart({ arguments.Output }, inputs);
+  requireFolderName(arguments.Output);
+  const PendingFolder writable(arguments.Output);
+}
+
+int runFlatten(FlattenArguments& arguments)
+{
+  checkPaths(arguments);
+  if (!arguments.Crs.empty())
+  {
+    requireCrs(arguments.Crs);
+  }
+  const bool isFolder = isFlatMesh(arguments.Input) && !isOpenedBy(arguments.Input, Opener::Vtk);
+  if (isMeshSeries(arguments.Input) || (isFolder && isFile(arguments)))
   {
     return flattenModelOutput(arguments);
+  }
+  if (isPartitionedMesh(arguments.Input))
+  {
+    const PartitionedMesh mesh = openPartitionedMesh(arguments.Input);
+    return writeContent(arguments, flattenPieces(mesh));
   }
   int code = Success;
   flattenVtkFile(arguments.Input,
@@ -141,13 +195,16 @@ int runFlatten(const FlattenArguments& arguments)
 void addOptions(CLI::App& command, FlattenArguments& arguments)
 {
   command.add_option("input", arguments.Input, "The mesh")->required();
-  command.add_option("-o,--output", arguments.Output, "The folder to write")->required();
+  command.add_option("-o,--output", arguments.Output, "The folder, or the .nc file, to write")
+    ->required();
   command.add_option("--values", arguments.Values,
     "With a mesh of a model: files of values at its nodes or cells: ASCII output of ADCIRC "
     "(fort.63, maxele.63 ...), datasets of SMS (.dat), or NetCDF");
   command.add_flag("--wrap", arguments.Wrap,
     "With a mesh of a model in degrees: cells that cross the meridian at which longitudes jump are "
     "on either side of it; without this they are an error");
+  command.add_option("--crs", arguments.Crs,
+    "With .nc: the coordinate reference system, such as EPSG:32617, instead of the input's");
 }
 
 int run(FlattenArguments& arguments)
@@ -157,6 +214,7 @@ int run(FlattenArguments& arguments)
     throw CLI::ValidationError(
       "--values and --wrap need the mesh of a model (.nc, .slf, .2dm, .14, .grd, .gr3)");
   }
+  refuseIf(!arguments.Crs.empty() && !isFile(arguments), "--crs", "needs an output named .nc");
   return isIdleRank() ? Success : runFlatten(arguments);
 }
 
@@ -165,7 +223,8 @@ int run(FlattenArguments& arguments)
 void addFlattenCommand(CLI::App& app, int& exitCode)
 {
   addCommand<FlattenArguments>(app, exitCode, "flatten",
-    "Writes the triangles or tetrahedra of a mesh as a folder of .npy arrays, in their order",
+    "Writes the triangles or tetrahedra of a mesh as a folder of .npy arrays, in their order, or "
+    "triangles as NetCDF (UGRID)",
     flattenFooter, addOptions, run);
 }
 

@@ -166,6 +166,7 @@ int runSeries(const ResampleArguments& arguments)
   }
   // Check the paths before the computation.
   SeriesDescription description = describeSeries(*series, plan, Lattice());
+  description.IsOneStep = !arguments.Step.empty() && isOneStep(arguments.Step);
   std::vector<PathState> before;
   std::vector<std::string> inputs = arguments.Values;
   inputs.push_back(arguments.Input);

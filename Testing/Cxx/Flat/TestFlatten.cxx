@@ -255,7 +255,6 @@ TEST_F(Flatten, AdcircValuesThatAreCutOffOrOfAnotherGridAreRefused)
   const std::pair<const char*, const char*> cases[] = {
     { "title\n", "file ends before" },
     { "title\n1 4 1 1 1\n10 1\n1 0.5\n", "announces" },
-    { "title\n2 4 1 1 1\n10 1\n1 1\n2 1\n3 1\n4 1\n", "file ends before a step" },
     { "title\n1 999999999999 1 1 1\n10 1\n", "at 999999999999 nodes, but the grid has 4" },
     { "title\n1 3 1 1 1\n10 1\n1 1\n2 1\n3 1\n", "the grid has 4" },
     { "title\n1 4 1 1 1\n10 1\n1 1\n2 1\n3 1\n9 1\n", "names node 9" },
@@ -266,6 +265,27 @@ TEST_F(Flatten, AdcircValuesThatAreCutOffOrOfAnotherGridAreRefused)
   {
     const std::string values = this->Folder.file("fort.63", text);
     expectIOError(values, words, [&] { FlattenedSeries(grid, { values }); });
+  }
+}
+
+TEST_F(Flatten, AdcircStepsOfAnInterruptedRunAreLeftOut)
+{
+  const std::string grid = this->grid();
+  const std::string whole =
+    "title\n4 4 1 1 1\n10 1\n1 1\n2 1\n3 1\n4 1\n20 2\n1 2\n2 2\n3 2\n4 2\n";
+  for (const char* rest : { "", "30 3\n", "30 3\n1 3\n", "30 3\n1 3\n2 3\n3 3.", "3", "30 3\n1" })
+  {
+    const std::string values = this->Folder.file("fort.63", whole + rest);
+    const FlattenedSeries flattened(grid, { values });
+    EXPECT_EQ((std::vector<double>{ 10, 20 }), flattened.Content.Times) << rest;
+    EXPECT_EQ(2.0, FlattenedSeries::valueAt(flattened.Content.PointData.at(1), 1, 3));
+    ASSERT_EQ(1U, flattened.Series->LeftOut.size());
+    EXPECT_EQ("step 2", flattened.Series->LeftOut[0].Name);
+  }
+  for (const char* rest : { "30 3\n1 3\n2 x\n3 3\n4 3\n", "30 3\n1 3\n2 3\n3 3\n4 y\n" })
+  {
+    const std::string values = this->Folder.file("fort.63", whole + rest);
+    expectIOError(values, "is not a number", [&] { FlattenedSeries(grid, { values }); });
   }
 }
 

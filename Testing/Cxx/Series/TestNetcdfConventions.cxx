@@ -398,6 +398,47 @@ TEST_F(NetcdfConventions, MpasIsReadAsPolygonsOrAsItsDualMesh)
   }
 }
 
+TEST_F(NetcdfConventions, MpasDatesBecomeSecondsOfItsCalendar)
+{
+  const auto write = [this](const std::string& calendar, const std::string& last)
+  {
+    NetcdfWriter w(this->path("mpas.nc"));
+    const int nodes = this->addNodes(w, "nCells");
+    const int cells = w.dimension("nVertices", 1);
+    const int three = w.dimension("three", 3);
+    const int time = w.dimension("Time", 2);
+    const int length = w.dimension("StrLen", 64);
+    w.text(NC_GLOBAL, "config_calendar_type", calendar);
+    const int x = w.variable("lonCell", NC_DOUBLE, { nodes });
+    const int y = w.variable("latCell", NC_DOUBLE, { nodes });
+    const int corners = w.variable("cellsOnVertex", NC_INT, { cells, three });
+    const int dates = w.variable("xtime", NC_CHAR, { time, length });
+    const int ssh = w.variable("ssh", NC_DOUBLE, { time, nodes });
+    w.put(x, this->X);
+    w.put(y, this->Y);
+    w.put(corners, { 1, 2, 3 });
+    w.put(ssh, Doubles(10, 1));
+    std::string text = "2004-02-28_12:00:00";
+    text.resize(64, ' ');
+    text += last;
+    text.resize(128, ' ');
+    NetcdfWriter::check(nc_put_var_text(w.file(), dates, text.c_str()));
+    return w.close();
+  };
+  auto series = openMeshSeries(write("gregorian", "2004-03-01_00:00:30"));
+  EXPECT_EQ((Doubles{ 0, 1.5 * 86400 + 30 }), series->Times);
+  EXPECT_EQ("seconds since 2004-02-28 12:00:00", series->TimeUnits);
+  EXPECT_EQ("", series->Calendar);
+  series.reset(); // which has the file open
+  series = openMeshSeries(write("gregorian_noleap", "2004-03-01_00:00:30"));
+  EXPECT_EQ((Doubles{ 0, 0.5 * 86400 + 30 }), series->Times);
+  EXPECT_EQ("noleap", series->Calendar);
+  series.reset();
+  series = openMeshSeries(write("gregorian", "later"));
+  EXPECT_EQ((Doubles{ 0, 1 }), series->Times);
+  EXPECT_EQ("time", series->LeftOut.at(0).Name);
+}
+
 TEST_F(NetcdfConventions, NodesAreReadAsPointsWhateverTheCells)
 {
   NetcdfWriter w(this->path("fort.63.nc"));

@@ -247,6 +247,8 @@ TEST(ResampleSeries, ReducesWithoutWritingTheSteps)
   ASSERT_EQ(4u, description.Fields.size());
   EXPECT_EQ("level_max", description.Fields[0].Name);
   EXPECT_EQ("rain_time_of_max", description.Fields[3].Name);
+  EXPECT_EQ("time from the first step (0 hours since 2008-09-01) to the maximum of rain",
+    description.Fields[3].LongName);
   std::vector<float> maximum = resampled(series, 0, 0);
   for (std::size_t step = 1; step < 5; ++step)
   {

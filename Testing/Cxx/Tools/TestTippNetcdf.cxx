@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Netcdf/NetcdfFile.h"
+#include "Series/MeshSeries.h"
 #include "TippSeries.h"
 
 #include <gtest/gtest.h>
@@ -36,4 +37,128 @@ TEST_F(TippNetcdf, HoldsGridsInTheMannerOfCf)
   const std::vector<double> values = file.read(*level);
   EXPECT_EQ(20.25, values[51]);
   EXPECT_TRUE(std::isnan(values[74]));
+}
+
+/// `tipp flatten` with an output in NetCDF.
+class TippUgrid : public TippResampleSeries
+{
+protected:
+  void flatten(const Words& arguments, const std::string& output) const
+  {
+    Words words = { "flatten" };
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    words.insert(words.end(), { "-o", output });
+    const Outcome outcome = runTipp(this->Folder, words);
+    ASSERT_EQ(0, outcome.ExitCode) << outcome.Err;
+  }
+
+  /// Expects the flat mesh "surge" in a file.
+  void expectSurge(const std::string& name) const
+  {
+    const auto series = openMeshSeries(this->Folder.path(name));
+    EXPECT_EQ("UGRID", series->Kind);
+    EXPECT_EQ((std::vector<double>{ 0, 60, 120, 240 }), series->Times);
+    const SeriesMesh mesh = series->readMesh();
+    EXPECT_EQ((std::vector<double>{ 0, 0, 1, 0, 1, 1, 0, 1 }), mesh.XY);
+    EXPECT_EQ((std::vector<std::int64_t>{ 0, 1, 3, 1, 2, 3 }), mesh.Triangles);
+    EXPECT_TRUE(mesh.OriginalCells.empty());
+    std::vector<double> values;
+    series->read(findSeriesVariable(*series, "level"), 3, values);
+    EXPECT_EQ((std::vector<double>{ 30, 31, -99999, 30 }), values);
+    series->read(findSeriesVariable(*series, "depth"), 0, values);
+    EXPECT_EQ((std::vector<double>{ 0, 0, 1, 1 }), values);
+    EXPECT_TRUE(series->LeftOut.empty());
+  }
+};
+
+TEST_F(TippUgrid, HoldsAMeshAndItsSteps)
+{
+  this->flatten({ "surge", "--crs", "EPSG:4326" }, "mesh.nc");
+  this->expectSurge("mesh.nc");
+  EXPECT_NE(std::string::npos, openMeshSeries(this->Folder.path("mesh.nc"))->Crs.find("WGS 84"));
+  this->flatten({ "mesh.nc" }, "again.nc");
+  this->expectSurge("again.nc");
+  EXPECT_EQ(openMeshSeries(this->Folder.path("mesh.nc"))->Crs,
+    openMeshSeries(this->Folder.path("again.nc"))->Crs);
+}
+
+TEST_F(TippUgrid, HoldsAPartitionedMeshInItsFirstOrder)
+{
+  const Outcome outcome =
+    runTipp(this->Folder, { "partition", "surge", "-o", "surge.tipp", "--tiling", "grid:2x2" });
+  ASSERT_EQ(0, outcome.ExitCode) << outcome.Err;
+  this->flatten({ "surge.tipp" }, "mesh.nc");
+  this->expectSurge("mesh.nc");
+  this->flatten({ "surge.tipp" }, "joined");
+  const auto valuesIn = [this](const std::string& name)
+  {
+    const std::string file = contentOf(this->Folder.path(name + ".npy"));
+    return file.substr(file.find('\n')); // after the header, which may be padded
+  };
+  for (const char* name : { "/cells", "/time", "/point_data/level", "/point_data/depth" })
+  {
+    EXPECT_EQ(valuesIn(std::string("surge") + name), valuesIn(std::string("joined") + name))
+      << name;
+  }
+}
+
+TEST_F(TippUgrid, HoldsATriangulation)
+{
+  this->Folder.file("points.csv", "x,y,z,rain\n0,0,1,5\n4,0,2,6\n0,3,3,7\n4,3.5,4,8\n");
+  const Outcome outcome = runTipp(this->Folder, { "delaunay", "points.csv", "-o", "mesh.nc" });
+  ASSERT_EQ(0, outcome.ExitCode) << outcome.Err;
+  const auto series = openMeshSeries(this->Folder.path("mesh.nc"));
+  EXPECT_EQ((std::vector<double>{ 0, 0, 4, 0, 0, 3, 4, 3.5 }), series->readMesh().XY);
+  EXPECT_EQ(6u, series->readMesh().Triangles.size());
+  std::vector<double> values;
+  series->read(findSeriesVariable(*series, "rain"), 0, values);
+  EXPECT_EQ((std::vector<double>{ 5, 6, 7, 8 }), values);
+  series->read(findSeriesVariable(*series, "z"), 0, values);
+  EXPECT_EQ((std::vector<double>{ 1, 2, 3, 4 }), values);
+}
+
+TEST_F(TippUgrid, HasOneStepAsAPlaneOrAsAListOfOne)
+{
+  this->flatten({ "surge" }, "mesh.nc");
+  for (const auto& [step, shape] :
+    std::vector<std::pair<std::string, std::string>>{ { "1", "5 x 5" }, { "1:1", "1 x 5 x 5" } })
+  {
+    for (const char* mesh : { "surge", "mesh.nc" })
+    {
+      const Outcome outcome = runTipp(this->Folder,
+        { "resample", mesh, "-o", "one.npy", "--step", step, "--arrays", "level",
+          "--resolution=0.25" });
+      ASSERT_EQ(0, outcome.ExitCode) << outcome.Err;
+      const InputFile file(this->Folder.path("one.npy"));
+      EXPECT_EQ(shape, openNpyArray(file).shapeText()) << mesh;
+    }
+  }
+}
+
+TEST_F(TippUgrid, MarksMissingValues)
+{
+  this->flatten({ "surge" }, "mesh.nc");
+  NetcdfFile file(this->Folder.path("mesh.nc"));
+  const NetcdfVariable* const level = file.content().find("level");
+  ASSERT_NE(nullptr, level);
+  EXPECT_TRUE(std::isnan(*level->number("_FillValue")));
+  EXPECT_EQ("mesh2d", level->text("mesh"));
+  EXPECT_EQ("node", level->text("location"));
+  EXPECT_EQ(0, file.content().find("mesh2d_face_nodes")->number("start_index"));
+  EXPECT_EQ(2, file.content().find("mesh2d")->number("topology_dimension"));
+}
+
+TEST_F(TippUgrid, RefusesTetrahedraAndNamesThatAreTaken)
+{
+  this->Folder.file("tetrahedron.vtk",
+    "# vtk DataFile Version 3.0\nmesh\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n"
+    "0 0 0 1 0 0 0 1 0 0 0 1\nCELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\n");
+  const Outcome solid = runTipp(this->Folder, { "flatten", "tetrahedron.vtk", "-o", "mesh.nc" });
+  EXPECT_EQ(1, solid.ExitCode);
+  EXPECT_NE(std::string::npos, solid.Err.find("tetrahedron.vtk: has tetrahedra")) << solid.Err;
+  this->write<double>("point_data/time", "<f8", "(4,)", { 0, 0, 1, 1 });
+  const Outcome taken = runTipp(this->Folder, { "flatten", "surge", "-o", "mesh.nc" });
+  EXPECT_EQ(1, taken.ExitCode);
+  EXPECT_NE(std::string::npos, taken.Err.find("the name 'time' twice")) << taken.Err;
+  EXPECT_FALSE(this->exists("mesh.nc"));
 }

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Flat/FlatUgrid.h"
+
+#include "Files/IOError.h"
+
+#include <algorithm>
+#include <cstring>
+#include <memory>
+#include <vector>
+
+namespace tipp
+{
+namespace
+{
+
+/// The values of an array at a step.
+const char* valuesAt(const FlatArray& array, std::size_t step)
+{
+  if (array.StepValues)
+  {
+    return static_cast<const char*>(array.StepValues(std::int64_t(step)));
+  }
+  const std::size_t bytes =
+    scalarSize(array.Type) * std::size_t(array.Tuples) * std::size_t(array.Components);
+  return static_cast<const char*>(array.Values) + step * bytes;
+}
+
+/// Copies one component of the values at a step. The array must outlive the result.
+std::function<const void*(std::size_t)> readerOf(const FlatArray& array, int component)
+{
+  if (array.Components == 1)
+  {
+    return [&array](std::size_t step) { return valuesAt(array, step); };
+  }
+  const auto values = std::make_shared<std::vector<char>>();
+  return [&array, component, values](std::size_t step)
+  {
+    const std::size_t size = scalarSize(array.Type);
+    const char* from = valuesAt(array, step) + std::size_t(component) * size;
+    values->resize(std::size_t(array.Tuples) * size);
+    for (std::size_t i = 0; i < std::size_t(array.Tuples); ++i)
+    {
+      std::memcpy(values->data() + i * size, from, size);
+      from += std::size_t(array.Components) * size;
+    }
+    return static_cast<const void*>(values->data());
+  };
+}
+
+void add(UgridContent& to, const FlatArray& array, bool onCells)
+{
+  for (int i = 0; i < array.Components; ++i)
+  {
+    std::string name = array.Components == 1 ? array.Name : array.Name + "_" + std::to_string(i);
+    const bool isTaken = std::any_of(to.Arrays.begin(), to.Arrays.end(),
+      [&name](const UgridArray& other) { return other.Name == name; });
+    name += isTaken ? "_cells" : "";
+    to.Arrays.push_back({ name, "", "", array.Type, onCells, array.Steps > 0, readerOf(array, i) });
+  }
+}
+
+} // namespace
+
+UgridContent ugridOf(const FlatContent& content, const std::string& source)
+{
+  if (content.CellSize != 3)
+  {
+    throw IOError(source, "has tetrahedra, and UGRID files here are of triangles in the plane.");
+  }
+  UgridContent result;
+  result.Source = source;
+  result.Nodes = content.Points.Tuples;
+  result.Triangles = std::int64_t(content.Cells.size() / 3);
+  const FlatArray& points = content.Points;
+  const char* const values = valuesAt(points, 0);
+  const auto dimension = std::int64_t(points.Components);
+  result.Node = [values, dimension, isFloat = points.Type == Scalar::Float32](std::int64_t node)
+  {
+    const auto at = [&](std::int64_t axis)
+    {
+      const std::int64_t index = node * dimension + axis;
+      return isFloat ? double(reinterpret_cast<const float*>(values)[index])
+                     : reinterpret_cast<const double*>(values)[index];
+    };
+    return Point2{ at(0), at(1) };
+  };
+  result.Corner = [&content](std::int64_t triangle, int corner)
+  { return content.Cells[3 * std::size_t(triangle) + std::size_t(corner)]; };
+  for (const FlatArray& array : content.PointData)
+  {
+    add(result, array, false);
+  }
+  const bool hasElevation = std::any_of(result.Arrays.begin(), result.Arrays.end(),
+    [](const UgridArray& array) { return array.Name == "elevation"; });
+  if (dimension == 3 && !hasElevation)
+  {
+    result.Arrays.push_back(
+      { "elevation", "", "", points.Type, false, false, readerOf(content.Points, 2) });
+  }
+  for (const FlatArray& array : content.CellData)
+  {
+    add(result, array, true);
+  }
+  result.Times = content.Times;
+  return result;
+}
+
+} // namespace tipp

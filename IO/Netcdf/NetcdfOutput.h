@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippNetcdfOutput_h
+#define tippNetcdfOutput_h
+
+#include "Arrays/Scalar.h"
+#include "Files/PendingOutput.h"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tipp
+{
+
+/// A NetCDF-4 file that is written with the NetCDF library. It appears when it is complete; without
+/// close() it is removed. All functions throw IOError.
+class NetcdfOutput
+{
+public:
+  /// `before` as for PendingFile. `isClassic`: only the types of the classic formats, which all
+  /// programs read. `advice`: what to do where a name is not valid, such as "rename it".
+  NetcdfOutput(const std::string& path, const std::optional<PathState>& before, bool isClassic,
+    std::string advice);
+  ~NetcdfOutput();
+  NetcdfOutput(const NetcdfOutput&) = delete;
+  NetcdfOutput& operator=(const NetcdfOutput&) = delete;
+
+  /// For calls of the library.
+  int file() const { return this->File; }
+  /// Throws if a call has failed. `name`: of the variable or attribute at which it may fail.
+  void check(int status, const std::string& name = "") const;
+
+  /// The number of a variable that stands for the whole file.
+  static const int global;
+  /// Sets an attribute, unless the text is empty.
+  void setText(int variable, const char* name, const std::string& text) const;
+  void setInteger(int variable, const char* name, int value) const;
+  int addDimension(const std::string& name, std::size_t size) const;
+  int addUnlimited(const std::string& name) const;
+  int addVariable(const std::string& name, Scalar type, const std::vector<int>& dimensions) const;
+  /// Lets a variable be stored in compressed chunks.
+  void compress(int variable, const std::vector<std::size_t>& chunk) const;
+  /// The fill value of a variable of floating-point numbers becomes NaN.
+  void fillWithNaN(int variable, Scalar type) const;
+  void endDefinitions() const;
+
+  /// Writes a part of a variable, in its type.
+  void write(int variable, const std::vector<std::size_t>& start,
+    const std::vector<std::size_t>& count, const void* values) const;
+
+  /// Completes the file.
+  void close();
+
+private:
+  std::string Path;
+  std::string Advice;
+  PendingFile Pending;
+  int File = 0;
+  bool IsOpen = false;
+  mutable bool HasFailed = false;
+};
+
+} // namespace tipp
+
+#endif
