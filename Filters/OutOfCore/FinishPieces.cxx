@@ -6,11 +6,8 @@
 #include "Partitioned/FinishedPieces.h"
 #include "Partitioned/GrowingPiece.h"
 #include "Partitioned/PieceFile.h"
-#include "Predicates/ExactPredicates3.h"
-#include "Triangulation/TriangleSink.h"
 
 #include <algorithm>
-#include <stdexcept>
 #include <utility>
 
 namespace tipp
@@ -56,44 +53,6 @@ void takeTriangles(const PieceWork& work, const std::string& name, const Borders
 }
 
 } // namespace
-
-/// Finds the pieces that the triangle meets, as indices in the mesh, ascending.
-void BorderSorter::findMet(const BoundaryTriangle& triangle)
-{
-  const Point2 a = triangle[0].Position;
-  const Point2 b = triangle[1].Position;
-  const Point2 c = triangle[2].Position;
-  const PiecePlan& plan = this->Work.Plan;
-  this->Met.clear();
-  plan.Pieces.visitMet(Circumdisk(a, b, c),
-    [&](PartitionIndex piece)
-    {
-      if (triangleMeetsBox(a, b, c, inSpace(plan.Pieces.box(piece))))
-      {
-        this->Met.push_back(std::int32_t(plan.number(piece)));
-      }
-    });
-  std::sort(this->Met.begin(), this->Met.end());
-  if (this->Met.empty())
-  {
-    throw std::runtime_error(
-      "Points are outside of the bounds that the first pass found: the input has changed; "
-      "start again.");
-  }
-}
-
-void BorderSorter::add(const BoundaryTriangle& triangle)
-{
-  const double longest = this->Work.MaximumEdge * this->Work.Factor;
-  if (longest > 0 && !this->Work.Constraints &&
-    hasLongEdge(triangle[0].Position, triangle[1].Position, triangle[2].Position, longest))
-  {
-    return;
-  }
-  this->findMet(triangle);
-  const auto owner = static_cast<PartitionIndex>(this->Work.Plan.number(this->Met.front()));
-  this->Borders[owner].add({ triangle[0].Id, triangle[1].Id, triangle[2].Id }, this->Met);
-}
 
 void append(BordersByOwner&& from, BordersByOwner& to)
 {
@@ -193,7 +152,7 @@ public:
   PieceFinisher(const PieceWork& work, int threads, PieceFigures& figures)
     : PieceFinisherOf(work, figures)
   {
-    BorderSorter sorter(work, this->Late);
+    BorderSorter sorter(work.Plan, this->Late, work.longestAtBorder());
     repairHull(this->readHullVertices(), work.Plan.Artificial, sorter);
     if (work.Constraints)
     {

@@ -3,15 +3,20 @@
 #define tippFinishPieces_h
 
 #include "OutOfCore/PiecePlan.h"
+#include "OutOfCore/PiecePlan3.h"
 #include "OutOfCore/PieceResult.h"
 #include "Parallel/ParallelFor.h"
 #include "Partitioned/GrowingPiece.h"
+#include "Triangulation/Dimension.h"
+#include "Triangulation/TriangleSink.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <stdexcept>
 #include <vector>
 
 namespace tipp
@@ -19,28 +24,75 @@ namespace tipp
 
 // Point ids in this header are indices among all spilled points (see SpilledPoints).
 
-/// Adds each border triangle to its owner, which is the first piece, in the order of the mesh, that
-/// the triangle meets. The other pieces that it meets borrow it. Triangles with too long an edge
-/// are left out. With constraints, which change triangles, they are left out later instead.
-class BorderSorter : public FinalTriangleConsumer
+/// Adds each border cell to its owner, which is the first piece, in the order of the mesh, that the
+/// cell meets. The other pieces that it meets borrow it.
+template <typename Plan>
+class BorderSorterOf : public FinalCellConsumer<Plan::Dimensions>
 {
 public:
-  /// Both arguments must outlive this object.
-  BorderSorter(const PieceWork& work, BordersByOwner& borders)
-    : Work(work)
+  static constexpr int D = Plan::Dimensions;
+
+  /// `longest`: in the plane, triangles with a longer edge are left out; 0: all are added. `plan`
+  /// and `borders` must outlive this object.
+  BorderSorterOf(const Plan& plan, BordersOf<D + 1>& borders, double longest = 0)
+    : Pieces(plan)
     , Borders(borders)
+    , Longest(longest)
   {
   }
 
-  void add(const BoundaryTriangle& triangle) override;
+  /// Returns the pieces that the cell meets, as indices in the mesh, ascending. Valid until the
+  /// next call. Throws std::runtime_error if there is none.
+  const std::vector<std::int32_t>& findMet(const BoundaryCell<D>& cell)
+  {
+    const std::array<Point<D>, D + 1> corners = positionsOf(cell);
+    Box<D> bounds = Box<D>::empty();
+    std::for_each(corners.begin(), corners.end(), [&](const Point<D>& p) { bounds.extend(p); });
+    this->Met.clear();
+    this->Pieces.Pieces.visitNear(bounds,
+      [&](PartitionIndex piece)
+      {
+        if (Dimension<D>::meetsBox(corners, this->Pieces.box(piece)))
+        {
+          this->Met.push_back(std::int32_t(this->Pieces.number(piece)));
+        }
+      });
+    std::sort(this->Met.begin(), this->Met.end());
+    if (this->Met.empty())
+    {
+      throw std::runtime_error("Points are outside of the bounds that the first pass found: the "
+                               "input has changed; start again.");
+    }
+    return this->Met;
+  }
+
+  /// Adds the cell. `met`: the result of findMet().
+  void add(const BoundaryCell<D>& cell, const std::vector<std::int32_t>& met)
+  {
+    this->Borders[PartitionIndex(this->Pieces.number(met.front()))].add(idsOf(cell), met);
+  }
+  void add(const BoundaryCell<D>& cell) override
+  {
+    if constexpr (D == 2)
+    {
+      const auto [a, b, c] = positionsOf(cell);
+      if (this->Longest > 0 && hasLongEdge(a, b, c, this->Longest))
+      {
+        return;
+      }
+    }
+    this->add(cell, this->findMet(cell));
+  }
 
 private:
-  void findMet(const BoundaryTriangle& triangle);
-
-  const PieceWork& Work;
-  BordersByOwner& Borders;
+  const Plan& Pieces;
+  BordersOf<D + 1>& Borders;
+  const double Longest;
   std::vector<std::int32_t> Met;
 };
+
+using BorderSorter = BorderSorterOf<PiecePlan>;
+using BorderSorter3 = BorderSorterOf<PiecePlan3>;
 
 /// Appends the triangles of `from` to those of `to`.
 void append(BordersByOwner&& from, BordersByOwner& to);

@@ -33,7 +33,7 @@ struct LoadedPiece::FinalTriangleSorter : public FinalTriangleConsumer
   FinalTriangleSorter(const LoadedPiece& piece, const LowestPoints& lowest)
     : Loaded(piece)
     , Lowest(lowest)
-    , Sorter(piece.Work, this->Borders)
+    , Sorter(piece.Work.Plan, this->Borders, piece.Work.longestAtBorder())
   {
   }
 

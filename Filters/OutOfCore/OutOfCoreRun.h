@@ -55,13 +55,29 @@ protected:
     this->Setup.Results = this->Scratch.results();
   }
 
-  /// Does the work and returns the statistics, also if the user stops the run.
-  template <typename Work>
-  RunStatistics perform(const Work& work)
+  /// Does the work and returns the statistics, also if the user stops the run. `spillPoints`
+  /// surveys and spills the points; it is not called if an earlier run has done so. `makeMesh` does
+  /// the rest, except for moving the mesh to its path, unless that is done, too.
+  template <typename SpillPoints, typename MakeMesh>
+  RunStatistics perform(const SpillPoints& spillPoints, const MakeMesh& makeMesh)
   {
     try
     {
-      work();
+      this->requireSharedFolders();
+      if (!this->resume())
+      {
+        this->Record.keep(false);
+        this->Scratch.clear();
+        this->Setup.describeColumns(this->Input.columns(), this->Options);
+        spillPoints();
+        this->recordSpilled();
+      }
+      if (!this->Record.isWhole())
+      {
+        makeMesh();
+      }
+      this->Setup.Spilled.reset();
+      this->putInPlace();
     }
     catch (const Aborted&)
     {
@@ -121,16 +137,6 @@ protected:
     this->Statistics.Phases.push_back({ name, this->Watch.restart() });
   }
 
-  /// Throws IOError on each rank that does not see the folders of the run.
-  void requireSharedFolders()
-  {
-    if (this->Ranks)
-    {
-      requireSharedFolder(*this->Ranks, this->Pending.workPath());
-      requireSharedFolder(*this->Ranks, this->Scratch.folder());
-    }
-  }
-
   /// Reads all points, and sets Setup.Survey.
   void survey(const InputMemory& memory)
   {
@@ -141,6 +147,10 @@ protected:
   /// Spills all points by the plan, which takes up to the fraction `end` of the run.
   void spill(const InputMemory& memory, double end)
   {
+    decltype(this->Setup.Survey.Sample)().swap(this->Setup.Survey.Sample); // {} keeps the memory
+    this->Setup.describeMesh();
+    this->describePlan();
+    this->endPhase("survey");
     const double all = double(this->Setup.Survey.Points);
     this->Setup.Spilled =
       this
@@ -150,19 +160,11 @@ protected:
     this->Statistics.SpilledBytes = this->Setup.Spilled->bytes();
   }
 
-  /// Records that the points are spilled. From now on the run can be resumed.
-  void recordSpilled()
-  {
-    this->Record.save(
-      RunRecord::Stage::Begun, [this](SaveArchive& archive) { this->Setup.save(archive); });
-    this->endPhase("spill");
-  }
-
   /// Triangulates on all ranks the pieces that are not done: the part [from, from + length] of the
   /// run.
-  template <typename Memory>
-  void makePieces(const Memory& memory, double from, double length)
+  void makePieces(double from, double length)
   {
+    const auto memory = this->Setup.memory(this->Options);
     const auto work = this->Setup.work();
     const std::vector<char> isDone =
       verifyResults(work, this->Threads, this->reportPart(from, 0), this->Options.Warn);
@@ -175,19 +177,6 @@ protected:
     { return this->proceed(from + length * done); };
     triangulatePieces(
       work, memory, this->Threads, progress, this->Ranks ? *this->Ranks : alone, isDone);
-  }
-
-  /// Calls `loadPlan` if the points of an earlier run are spilled. Returns false if there is
-  /// nothing to resume.
-  bool resume(const RunRecord::Load& loadPlan)
-  {
-    this->Statistics.Resumed = this->Record.resume(this->Options.Resume, this->Threads, loadPlan,
-      [this](LoadArchive& archive) { archive(this->Statistics); });
-    if (this->Statistics.Resumed)
-    {
-      this->endPhase("resume");
-    }
-    return this->Statistics.Resumed;
   }
 
   /// Writes the ids of all cells and, if requested, those of their neighbours. `memory`: in bytes.
@@ -217,13 +206,6 @@ protected:
       published.Fingerprint);
   }
 
-  void putInPlace()
-  {
-    this->proceed(1); // too late to stop the run
-    this->Record.putInPlace();
-    this->endPhase("publish");
-  }
-
   PointStream& Input;
   const std::string Path;
   const RunOptions& Options;
@@ -237,6 +219,66 @@ protected:
   std::vector<FinishedPiece> Finished;
 
 private:
+  /// Throws IOError on each rank that does not see the folders of the run.
+  void requireSharedFolders()
+  {
+    if (this->Ranks)
+    {
+      requireSharedFolder(*this->Ranks, this->Pending.workPath());
+      requireSharedFolder(*this->Ranks, this->Scratch.folder());
+    }
+  }
+
+  /// Returns false if there is nothing to resume.
+  bool resume()
+  {
+    this->Statistics.Resumed = this->Record.resume(
+      this->Options.Resume, this->Threads,
+      [this](LoadArchive& archive)
+      {
+        this->Setup.load(archive, this->Scratch.points());
+        this->describePlan();
+        this->Statistics.SpilledBytes = this->Setup.Spilled->bytes();
+      },
+      [this](LoadArchive& archive) { archive(this->Statistics); });
+    if (this->Statistics.Resumed)
+    {
+      this->endPhase("resume");
+    }
+    return this->Statistics.Resumed;
+  }
+
+  /// Records that the points are spilled. From now on the run can be resumed.
+  void recordSpilled()
+  {
+    this->Record.save(
+      RunRecord::Stage::Begun, [this](SaveArchive& archive) { this->Setup.save(archive); });
+    this->endPhase("spill");
+  }
+
+  /// Sets the statistics that are known once there is a plan.
+  void describePlan()
+  {
+    const auto& survey = this->Setup.Survey;
+    this->Statistics.Points = survey.Points;
+    this->Statistics.Rejected = survey.Rejected;
+    this->Statistics.LeftOut = survey.LeftOut;
+    this->Statistics.ThinnedOut = survey.ThinnedOut;
+    this->Statistics.Pieces = this->Setup.Plan->pieces();
+    if constexpr (SetupType::PlanType::Dimensions == 2)
+    {
+      this->Statistics.WithoutElevation = survey.WithoutElevation;
+      this->Statistics.Partitions = this->Setup.Plan->Partitions.size();
+    }
+  }
+
+  void putInPlace()
+  {
+    this->proceed(1); // too late to stop the run
+    this->Record.putInPlace();
+    this->endPhase("publish");
+  }
+
   auto passes(const InputMemory& memory, const std::function<void(std::int64_t)>& progress) const
   {
     return InputPassesOf<typename SetupType::PlanType>(this->Input, this->Ranks,

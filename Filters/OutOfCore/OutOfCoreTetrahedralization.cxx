@@ -43,7 +43,6 @@ public:
   TetrahedralizationRun(PointStream& points, const std::string& path,
     const OutOfCoreOptions3& options, Communicator* ranks)
     : OutOfCoreRun(points, path, options, identityInSpace(points, options), ranks)
-    , Memory(options.MemoryLimit, options.PiecePoints, 3 + points.columns().size())
   {
     requireFolderName(path);
     this->Setup.Mesh.Path = this->Pending.temporaryPath();
@@ -51,59 +50,18 @@ public:
 
   OutOfCoreStatistics3 run()
   {
-    return this->perform(
-      [this]
-      {
-        this->requireSharedFolders();
-        if (!this->resume([this](LoadArchive& archive) { this->load(archive); }))
-        {
-          this->prepare();
-        }
-        if (!this->Record.isWhole())
-        {
-          this->triangulate();
-          this->numberAndLink(this->Setup.Mesh, this->Memory.PieceBytes);
-          this->Statistics.Tetrahedra = this->Setup.Mesh.Cells;
-          this->publish(this->Setup.Mesh);
-        }
-        this->putInPlace();
-      });
+    return this->perform([this] { this->spillPoints(); }, [this] { this->makeMesh(); });
   }
 
 private:
-  void load(LoadArchive& archive)
+  void spillPoints()
   {
-    this->Setup.load(archive, this->Scratch.points());
-    this->describePlan();
-  }
-
-  void prepare()
-  {
-    this->Record.keep(false);
-    this->Scratch.clear();
-    this->Setup.describeColumns(this->Input.columns(), this->Options);
-    this->survey(this->Memory);
+    const MemoryPlan3 memory = this->Setup.memory(this->Options);
+    this->survey(memory);
     this->requireSpace();
-    InputSurvey3& survey = this->Setup.Survey;
-    this->Setup.Plan = std::make_unique<PiecePlan3>(survey, this->Memory, this->Setup.Rows.Words);
-    std::vector<SampledPointOf<Point3>>().swap(survey.Sample); // assigning {} would keep the memory
-    this->Setup.describeMesh();
-    this->endPhase("survey");
-    this->spill(this->Memory, 0.1);
-    this->recordSpilled();
-    this->describePlan();
-  }
-
-  /// Sets the statistics that are known once the points are spilled.
-  void describePlan()
-  {
-    const InputSurvey3& survey = this->Setup.Survey;
-    this->Statistics.Points = survey.Points;
-    this->Statistics.Rejected = survey.Rejected;
-    this->Statistics.LeftOut = survey.LeftOut;
-    this->Statistics.ThinnedOut = survey.ThinnedOut;
-    this->Statistics.Pieces = this->Setup.Plan->pieces();
-    this->Statistics.SpilledBytes = this->Setup.Spilled->bytes();
+    this->Setup.Plan =
+      std::make_unique<PiecePlan3>(this->Setup.Survey, memory, this->Setup.Rows.Words);
+    this->spill(memory, 0.1);
   }
 
   void requireSpace() const
@@ -118,16 +76,18 @@ private:
       points * (8 * this->Setup.Rows.Words + results));
   }
 
-  void triangulate()
+  void makeMesh()
   {
-    this->makePieces(this->Memory, 0.1, 0.75);
+    this->makePieces(0.1, 0.75);
     this->endPhase("triangulate");
-    this->Finished = finishPieces(this->Setup.work(), this->Memory.PieceBytes, this->Threads,
-      this->reportPart(0.85, 0.05), this->Statistics);
+    const std::uint64_t memory = this->Setup.memory(this->Options).PieceBytes;
+    this->Finished = finishPieces(
+      this->Setup.work(), memory, this->Threads, this->reportPart(0.85, 0.05), this->Statistics);
     this->endPhase("borders");
+    this->numberAndLink(this->Setup.Mesh, memory);
+    this->Statistics.Tetrahedra = this->Setup.Mesh.Cells;
+    this->publish(this->Setup.Mesh);
   }
-
-  const MemoryPlan3 Memory;
 };
 
 } // namespace

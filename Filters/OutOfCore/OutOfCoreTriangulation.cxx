@@ -70,56 +70,30 @@ public:
 
   OutOfCoreStatistics run()
   {
-    return this->perform(
+    return this->perform([this] { this->spillPoints(); },
       [this]
       {
-        this->requireSharedFolders();
-        if (!this->resume([this](LoadArchive& archive) { this->load(archive); }))
-        {
-          this->survey();
-          this->spill(*this->Memory, 0.2);
-          this->Setup.requireMemory(this->Path, this->Options.MemoryLimit);
-          this->recordSpilled();
-        }
-        if (!this->Record.isWhole())
-        {
-          this->Setup.beginTaking();
-          this->triangulate();
-          this->endTaking();
-          this->Options.CountOnly ? this->count() : this->publish();
-        }
-        this->Setup.Spilled.reset();
-        this->putInPlace();
+        this->Setup.beginTaking();
+        this->triangulate();
+        this->endTaking();
+        this->Options.CountOnly ? this->count() : this->publish();
       });
   }
 
 private:
-  void load(LoadArchive& archive)
+  void spillPoints()
   {
-    this->Setup.load(archive, this->Scratch.points());
-    this->Memory = std::make_unique<MemoryPlan>(this->Setup.memory(this->Options));
-    this->describePlan();
-  }
-
-  void survey()
-  {
-    this->Record.keep(false);
-    this->Scratch.clear();
-    this->Setup.describeColumns(this->Input.columns(), this->Options);
     auto* const segments = dynamic_cast<ConstrainedStream*>(&this->Input);
-    this->Memory = std::make_unique<MemoryPlan>(
-      this->Options, 3 + this->Input.columns().size(), segments != nullptr);
+    const std::size_t words = this->Setup.Rows.Words;
+    const MemoryPlan memory(this->Options, words, segments != nullptr);
     if (segments)
     {
       segments->begin(this->Scratch.points() + ".constraints", this->Options.MemoryLimit);
     }
     InputSurvey& survey = this->Setup.Survey;
-    OutOfCoreRun::survey(*this->Memory);
+    this->survey(memory);
     this->Setup.InputBounds =
       segments ? segments->inputBounds() : scaled(survey.Bounds, 1 / survey.Factor);
-    this->Statistics.LeftOut = this->Input.leftOut();
-    this->Statistics.ThinnedOut = this->Input.thinnedOut();
-    const std::size_t words = this->Setup.Rows.Words;
     requireElevation(this->Options.Duplicates, this->Input.columns());
     if (survey.Points == survey.Rejected)
     {
@@ -128,14 +102,13 @@ private:
     }
     this->requireSpace(0, segments ? SpilledSegments::fileBytes(segments->count()) : 0);
     this->Setup.Plan =
-      std::make_unique<PiecePlan>(survey, this->Options, *this->Memory, words, this->Threads);
+      std::make_unique<PiecePlan>(survey, this->Options, memory, words, this->Threads);
     if (segments)
     {
       this->Statistics.Constraints = segments->figures();
       this->Setup.setConstraints(this->Scratch.points(), *segments, this->Threads);
     }
     this->warnOfLongitudes(survey);
-    std::vector<SampledPoint>().swap(survey.Sample); // assigning {} would keep the memory
     if (this->Setup.Plan->HasLargeInterface)
     {
       // Each piece gets messages with nearly all points of the pieces before it.
@@ -143,9 +116,8 @@ private:
       constexpr std::uint64_t border = 64;
       this->requireSpace(sent * std::uint64_t(this->Setup.Plan->pieces()) + border, 0);
     }
-    this->Setup.describeMesh();
-    this->describePlan();
-    this->endPhase("survey");
+    this->spill(memory, 0.2);
+    this->Setup.requireMemory(this->Path, this->Options.MemoryLimit);
   }
 
   /// Warns of points on both sides of 180 degrees, judged by the sample.
@@ -164,15 +136,6 @@ private:
     {
       this->Options.Warn(warning);
     }
-  }
-
-  void describePlan()
-  {
-    this->Statistics.Points = this->Setup.Survey.Points;
-    this->Statistics.Rejected = this->Setup.Survey.Rejected;
-    this->Statistics.WithoutElevation = this->Setup.Survey.WithoutElevation;
-    this->Statistics.Pieces = this->Setup.Plan->pieces();
-    this->Statistics.Partitions = this->Setup.Plan->Partitions.size();
   }
 
   /// `more`: bytes per point in the scratch folder beyond the usual ones; `others`: additional
@@ -204,7 +167,7 @@ private:
       this->endPhase("triangulate");
       return;
     }
-    this->makePieces(*this->Memory, 0.2, 0.65);
+    this->makePieces(0.2, 0.65);
     this->Finished = finishPieces(
       this->Setup.work(), this->Threads, this->reportPart(0.85, 0.05), this->Statistics);
     this->endPhase("triangulate");
@@ -234,7 +197,7 @@ private:
   void publish()
   {
     PartitionedMesh& mesh = this->Setup.Mesh;
-    this->numberAndLink(mesh, this->Memory->LoadedBytes);
+    this->numberAndLink(mesh, this->Setup.memory(this->Options).LoadedBytes);
     this->Statistics.Triangles = mesh.Cells;
     if (this->Options.MarkConstraints)
     {
@@ -243,8 +206,6 @@ private:
     }
     OutOfCoreRun::publish(mesh);
   }
-
-  std::unique_ptr<MemoryPlan> Memory;
 };
 
 } // namespace

@@ -236,6 +236,13 @@ struct PieceWork : PieceWorkOf<PiecePlan, StoredResult>
   /// Returns whether Consumer gets the triangles between pieces as soon as these pieces are done.
   /// With constraints it does not, because they may change or remove these triangles.
   bool takesBordersEarly() const { return this->Consumer && !this->Constraints; }
+
+  /// Returns the longest edge of triangles at borders, in the plan's unit; 0: no limit. With
+  /// constraints, which change triangles, long ones are left out later instead.
+  double longestAtBorder() const
+  {
+    return this->Constraints ? 0 : this->MaximumEdge * this->Factor;
+  }
 };
 
 /// The paths of a piece's files, besides its part of the mesh.

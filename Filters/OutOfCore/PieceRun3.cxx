@@ -4,9 +4,7 @@
 #include "Engine/PartitionSchedule.h"
 #include "Engine/RankEngine.h"
 #include "Files/IOError.h"
-#include "OutOfCore/FinishPieces.h"
 #include "Parallel/Sort.h"
-#include "Predicates/ExactPredicates3.h"
 
 #include <algorithm>
 #include <chrono>
@@ -19,37 +17,6 @@
 
 namespace tipp
 {
-
-const std::vector<std::int32_t>& BorderSorter3::findMet(const BoundaryCell<3>& corners)
-{
-  Box3 bounds = Box3::empty();
-  for (const Vertex3& v : corners)
-  {
-    bounds.extend(v.Position);
-  }
-  this->Met.clear();
-  this->Plan.Pieces.visitNear(bounds,
-    [&](PartitionIndex piece)
-    {
-      if (tetrahedronMeetsBox(corners[0].Position, corners[1].Position, corners[2].Position,
-            corners[3].Position, this->Plan.box(piece)))
-      {
-        this->Met.push_back(std::int32_t(this->Plan.number(piece)));
-      }
-    });
-  std::sort(this->Met.begin(), this->Met.end());
-  if (this->Met.empty())
-  {
-    throw std::runtime_error("a tetrahedron lies outside of all pieces");
-  }
-  return this->Met;
-}
-
-void BorderSorter3::add(const BoundaryCell<3>& corners, const std::vector<std::int32_t>& met)
-{
-  const auto owner = PartitionIndex(this->Plan.number(met.front()));
-  this->Borders[owner].add({ corners[0].Id, corners[1].Id, corners[2].Id, corners[3].Id }, met);
-}
 
 namespace
 {
@@ -85,7 +52,7 @@ struct Cells : public FinalCellConsumer3
           [this](const Vertex3& v) { return v.Partition == this->Piece; });
       if (isOwn)
       {
-        this->addInside({ corners[0].Id, corners[1].Id, corners[2].Id, corners[3].Id });
+        this->addInside(idsOf(corners));
         return;
       }
       this->Sorter.add(corners, met);

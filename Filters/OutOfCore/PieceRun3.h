@@ -2,6 +2,7 @@
 #ifndef tippPieceRun3_h
 #define tippPieceRun3_h
 
+#include "OutOfCore/FinishPieces.h"
 #include "OutOfCore/OutOfCoreOptions.h"
 #include "OutOfCore/PiecePlan3.h"
 #include "OutOfCore/PieceResult.h"
@@ -22,31 +23,6 @@ using BordersByOwner3 = BordersOf<4>;
 using PieceResult3 = PieceResultOf<4, VertexMessage3>;
 using StoredResult3 = StoredResultOf<4, VertexMessage3>;
 using PieceWork3 = PieceWorkOf<PiecePlan3, StoredResult3>;
-
-/// Gives each border tetrahedron to its owner: of the pieces that it meets, the one that comes
-/// first in the mesh. The other pieces borrow it.
-class VTKTIPPFILTERS_EXPORT BorderSorter3 : public FinalCellConsumer<3>
-{
-public:
-  /// Both arguments must outlive this object.
-  BorderSorter3(const PiecePlan3& plan, BordersByOwner3& borders)
-    : Plan(plan)
-    , Borders(borders)
-  {
-  }
-
-  /// Returns the pieces that the tetrahedron meets, as indices in the mesh, ascending. Valid until
-  /// the next call.
-  const std::vector<std::int32_t>& findMet(const BoundaryCell<3>& corners);
-  /// Adds the tetrahedron. `met`: the result of findMet().
-  void add(const BoundaryCell<3>& corners, const std::vector<std::int32_t>& met);
-  void add(const BoundaryCell<3>& corners) override { this->add(corners, this->findMet(corners)); }
-
-private:
-  const PiecePlan3& Plan;
-  BordersByOwner3& Borders;
-  std::vector<std::int32_t> Met;
-};
 
 /// Triangulates this rank's pieces that are not done, as many at a time as fit in memory, and
 /// writes their results. Otherwise like triangulatePieces() for pieces of triangles.

@@ -41,6 +41,25 @@ template <int D>
 using BoundaryCell = std::array<VertexOf<Point<D>>, D + 1>;
 using BoundaryTriangle = BoundaryCell<2>;
 
+///@{
+/// The ids or positions of a cell's corners.
+template <typename Vertex, std::size_t Corners>
+std::array<std::int64_t, Corners> idsOf(const std::array<Vertex, Corners>& cell)
+{
+  std::array<std::int64_t, Corners> ids{};
+  std::transform(cell.begin(), cell.end(), ids.begin(), [](const Vertex& v) { return v.Id; });
+  return ids;
+}
+template <typename Vertex, std::size_t Corners>
+auto positionsOf(const std::array<Vertex, Corners>& cell)
+{
+  std::array<decltype(Vertex::Position), Corners> positions;
+  std::transform(
+    cell.begin(), cell.end(), positions.begin(), [](const Vertex& v) { return v.Position; });
+  return positions;
+}
+///@}
+
 /// The positions of vertices, or of other points that have one.
 template <typename Vertex>
 auto positionsOf(const std::vector<Vertex>& vertices)

@@ -40,6 +40,11 @@ struct Dimension<2>
   {
     return inCirclePerturbed(corners[0], corners[1], corners[2], p);
   }
+  /// Returns whether a cell with these corners and a box share a point; both are closed.
+  static bool meetsBox(const std::array<Point2, 3>& corners, const Box2& box)
+  {
+    return triangleMeetsBox(corners[0], corners[1], corners[2], inSpace(box));
+  }
 };
 
 template <>
@@ -55,6 +60,10 @@ struct Dimension<3>
   static bool isInConflict(const std::array<Point3, 4>& corners, const Point3& p)
   {
     return inSpherePerturbed(corners[0], corners[1], corners[2], corners[3], p);
+  }
+  static bool meetsBox(const std::array<Point3, 4>& corners, const Box3& box)
+  {
+    return tetrahedronMeetsBox(corners[0], corners[1], corners[2], corners[3], box);
   }
 };
 

@@ -59,7 +59,7 @@ struct FinalCells : public FinalCellConsumer3
   {
     if (!takeHullVertices(corners, this->HullVertices))
     {
-      this->addInside({ corners[0].Id, corners[1].Id, corners[2].Id, corners[3].Id });
+      this->addInside(idsOf(corners));
     }
   }
 };
