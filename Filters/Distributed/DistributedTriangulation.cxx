@@ -6,9 +6,7 @@
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Stopwatch.h"
 #include "Triangulation/Dataflow.h"
-#include "Triangulation/InputSurvey.h"
 #include "Triangulation/PointBuckets.h"
-#include "Triangulation/PointsView.h"
 #include "Triangulation/TriangleSink.h"
 
 #include <cmath>
@@ -18,39 +16,6 @@ namespace tipp
 {
 namespace
 {
-
-/// Surveys all ranks' points, and scales `points`, this rank's, to a moderate magnitude. Sets
-/// `rejected` to the indices of this rank's points that are not finite. Collective.
-InputSurvey surveyRanks(
-  Communicator& ranks, PointsView& points, std::vector<std::int64_t>& rejected, int threads)
-{
-  PointSurveyOf<2> local = surveyPoints(points, threads);
-  rejected = std::move(local.Rejected);
-  InputSurvey own;
-  own.Points = std::int64_t(points.size());
-  own.Rejected = std::int64_t(rejected.size());
-  own.Bounds = local.Bounds;
-  DimensionTest<2> dimension;
-  for (std::size_t i = 0; !dimension.isFull() && i < points.size(); ++i)
-  {
-    dimension.add(points[i]);
-  }
-  own.Simplex = dimension.simplex();
-  std::vector<InputSurvey> parts = ranks.allGather(own);
-  InputSurvey survey = joinSurveys(parts);
-  if (survey.Points == survey.Rejected)
-  {
-    survey.Bounds = {};
-  }
-  // All ranks must scale, or none.
-  const PointsView moderate = withModerateMagnitude(points, survey.Bounds);
-  if (!isTrueOnAny(ranks, moderate.factor() == 1))
-  {
-    points = moderate;
-    applyFactor(survey, moderate.factor());
-  }
-  return survey;
-}
 
 /// Returns, on the first rank, about `wanted` of all ranks' points, evenly spaced on each rank.
 /// Collective.
@@ -136,15 +101,9 @@ public:
   void run()
   {
     const Stopwatch watch;
-    this->numberPoints();
-    std::vector<std::int64_t> rejected;
     const InputSurvey survey =
-      surveyRanks(this->Ranks, this->Input.Points, rejected, this->Threads);
+      surveyRanks<2>(this->Ranks, this->Input, this->Result, this->Threads);
     this->Figures.InputPoints = std::int64_t(this->Input.Points.size());
-    for (const std::int64_t i : rejected)
-    {
-      this->Result.Rejected.push_back(this->Input.globalId(std::size_t(i)));
-    }
     if (survey.dimension() < 2)
     {
       this->sortOutOnly(survey.Bounds);
@@ -161,14 +120,6 @@ public:
   }
 
 private:
-  void numberPoints()
-  {
-    const std::vector<std::int64_t> firsts =
-      firstIndices(this->Ranks, std::int64_t(this->Input.Points.size()));
-    this->Input.FirstId = firsts[std::size_t(this->Ranks.rank())];
-    this->Result.AllPoints = firsts.back();
-  }
-
   PlanInput planInput(const InputSurvey& survey)
   {
     PlanInput input;

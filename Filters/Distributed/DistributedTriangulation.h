@@ -8,6 +8,8 @@
 #include "Distributed/Plan.h"
 #include "Distributed/PointExchange.h"
 #include "Ranks/Communicator.h"
+#include "Triangulation/InputSurvey.h"
+#include "Triangulation/PointsView.h"
 #include "Triangulation/Triangulate.h"
 #include "vtkTIPPFiltersModule.h"
 
@@ -26,6 +28,44 @@ Result runTogether(Communicator& ranks, const Points& points, const Options& opt
   Result result;
   ranks.together([&]() { Run(ranks, points, options, result).run(); });
   return result;
+}
+
+/// Numbers all ranks' points and surveys them. Scales this rank's, `input.Points`, to a moderate
+/// magnitude if all ranks can do so. Adds those that are not finite to `result`. Collective.
+template <int D, typename Result>
+InputSurveyOf<D> surveyRanks(
+  Communicator& ranks, RankPointsOf<D>& input, Result& result, int threads)
+{
+  const auto count = std::int64_t(input.Points.size());
+  const std::vector<std::int64_t> firsts = firstIndices(ranks, count);
+  input.FirstId = firsts[std::size_t(ranks.rank())];
+  result.AllPoints = firsts.back();
+  const PointSurveyOf<D> found = surveyPoints(input.Points, threads);
+  for (const std::int64_t i : found.Rejected)
+  {
+    result.Rejected.push_back(input.globalId(std::size_t(i)));
+  }
+  InputSurveyOf<D> own;
+  own.Points = count;
+  own.Rejected = std::int64_t(found.Rejected.size());
+  own.Bounds = found.Bounds;
+  DimensionTest<D> dimension;
+  for (std::size_t i = 0; !dimension.isFull() && i < input.Points.size(); ++i)
+  {
+    dimension.add(input.Points[i]);
+  }
+  own.Simplex = dimension.simplex();
+  std::vector<InputSurveyOf<D>> parts = ranks.allGather(own);
+  InputSurveyOf<D> survey = joinSurveys(parts);
+  survey.Bounds = survey.finite() == 0 ? Box<D>{} : survey.Bounds;
+  // All ranks must scale, or none.
+  const PointsViewOf<D> moderate = withModerateMagnitude(input.Points, survey.Bounds);
+  if (!isTrueOnAny(ranks, moderate.factor() == 1))
+  {
+    input.Points = moderate;
+    applyFactor(survey, moderate.factor());
+  }
+  return survey;
 }
 
 using PointTuples = PointTuplesOf<Point2>;

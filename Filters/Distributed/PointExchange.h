@@ -372,11 +372,14 @@ private:
   std::vector<std::vector<std::size_t>> CountsOf; ///< number of points, by thread and leaf
 };
 
-/// A rank's input points. Does not own the memory.
-struct RankPoints : RankPointData
+/// A rank's input points in D dimensions. Does not own the memory.
+template <int D>
+struct RankPointsOf : RankPointData
 {
-  PointsView Points; ///< coordinates of this rank's points
+  PointsViewOf<D> Points; ///< coordinates of this rank's points
 };
+
+using RankPoints = RankPointsOf<2>;
 
 /// The points of the leaves that a rank owns, ordered by leaf.
 template <typename Id>

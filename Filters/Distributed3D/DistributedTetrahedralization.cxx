@@ -38,7 +38,9 @@ public:
   void run()
   {
     const Stopwatch watch;
-    this->survey();
+    this->FinitePoints =
+      surveyRanks<3>(this->Ranks, this->Input, this->Result, this->Threads).finite();
+    this->Figures.InputPoints = std::int64_t(this->Input.Points.size());
     this->shareOut();
     this->Figures.ExchangeSeconds = watch.seconds();
     this->Figures.OwnedPoints = std::int64_t(this->Result.Owned.size());
@@ -57,32 +59,6 @@ public:
   }
 
 private:
-  /// Numbers the points, and agrees with other ranks on a factor for all coordinates.
-  void survey()
-  {
-    const PointsView3 points = this->Input.Points;
-    const std::vector<std::int64_t> firsts = firstIndices(this->Ranks, std::int64_t(points.size()));
-    this->Input.FirstId = firsts[std::size_t(this->Ranks.rank())];
-    this->Result.AllPoints = firsts.back();
-    this->Figures.InputPoints = std::int64_t(points.size());
-    const PointSurveyOf<3> found = surveyPoints(points, this->Threads);
-    for (const std::int64_t i : found.Rejected)
-    {
-      this->Result.Rejected.push_back(this->Input.globalId(std::size_t(i)));
-    }
-    Box3 bounds = Box3::empty();
-    for (const Box3& other : this->Ranks.allGather(found.Bounds))
-    {
-      bounds.extend(other);
-    }
-    // All ranks must scale, or none.
-    const PointsView3 moderate = withModerateMagnitude(points, bounds);
-    this->Input.Points = isTrueOnAny(this->Ranks, moderate.factor() == 1) ? points : moderate;
-    std::vector<std::int64_t> finite{ std::int64_t(points.size() - found.Rejected.size()) };
-    this->Ranks.sum(finite);
-    this->FinitePoints = finite[0];
-  }
-
   /// Returns a sample of all ranks' points; the same on all ranks.
   std::vector<Point3> sample()
   {

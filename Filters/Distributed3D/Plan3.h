@@ -16,12 +16,7 @@
 namespace tipp
 {
 
-/// A rank's input points in space. Does not own the memory.
-struct RankPoints3 : RankPointData
-{
-  PointsView3 Points;
-};
-
+using RankPoints3 = RankPointsOf<3>;
 using PointTuples3 = PointTuplesOf<Point3>;
 
 /// Chooses the numbers and shapes of partitions. If slabs are thick enough, parallel slabs are
