@@ -3,6 +3,7 @@
 
 #include "Distributed/ConstrainRanks.h"
 #include "Distributed/DistributedTriangulation.h"
+#include "Distributed/MergedRankPoints.h"
 #include "InMemory/AlphaShape.h"
 #include "InMemory/TriangulatePoints.h"
 #include "Parallel/Stopwatch.h"
@@ -28,6 +29,7 @@
 #include "vtkTransform.h"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -47,6 +49,19 @@ void checkProperties(vtkTIPPDelaunay2D* filter)
   {
     throw std::invalid_argument("ProjectionPlaneMode is VTK_SET_TRANSFORM_PLANE, but there is no "
                                 "Transform: call SetTransform, or choose another mode.");
+  }
+}
+
+constexpr const char* NoBounds =
+  "No BoundingTriangulation: only the x-y plane has one, without a transform.";
+constexpr const char* NoNeighbors = "No NeighborIds: the output has lines, too.";
+
+void requireNoTolerance(double tolerance)
+{
+  if (tolerance > 0)
+  {
+    throw std::runtime_error(
+      "a Tolerance does not go with a source: set it to 0, which merges points at one position.");
   }
 }
 
@@ -176,7 +191,7 @@ void vtkTIPPDelaunay2D::Execute(
   }
   if (this->BoundingTriangulation && toPlane)
   {
-    vtkWarningMacro("No BoundingTriangulation: only the x-y plane has one, without a transform.");
+    vtkWarningMacro(<< NoBounds);
   }
   tipp::SourceConstraints constraints;
   const vtkSmartPointer<vtkPointSet> input = source
@@ -186,7 +201,8 @@ void vtkTIPPDelaunay2D::Execute(
   const bool bounding = this->BoundingTriangulation && !toPlane && points;
   if (bounding)
   {
-    points = tipp::appendBoundingPoints(points, this->Offset);
+    points =
+      tipp::appendPoints(points, tipp::boundingCircle(tipp::finiteBounds(points), this->Offset));
   }
 
   tipp::ConstrainedTriangulation result = this->Triangulate(points, toPlane, constraints);
@@ -232,11 +248,7 @@ void vtkTIPPDelaunay2D::Execute(
 vtkSmartPointer<vtkPointSet> vtkTIPPDelaunay2D::ReadSource(vtkPointSet* input, vtkPolyData* source,
   vtkAbstractTransform* toPlane, tipp::SourceConstraints& constraints)
 {
-  if (this->Tolerance > 0)
-  {
-    throw std::runtime_error(
-      "a Tolerance does not go with a source: set it to 0, which merges points at one position.");
-  }
+  requireNoTolerance(this->Tolerance);
   tipp::JoinedPoints joined;
   joined.Data = input;
   if (this->MergeSourcePoints && source->GetNumberOfPoints() > 0)
@@ -262,8 +274,7 @@ tipp::ConstrainedTriangulation vtkTIPPDelaunay2D::Triangulate(
   const tipp::ProjectedPoints projected(points, toPlane);
   tipp::Monitor monitor(this);
   tipp::PointsRequest request;
-  request.Distance =
-    this->Tolerance > 0 ? this->Tolerance * tipp::diagonalOf(tipp::finiteBounds(points)) : 0;
+  request.Distance = tipp::toleratedDistance(this->Tolerance, points);
   request.Source = &constraints;
   request.Crossings = crossingRule(this);
   tipp::TriangulationOptions& options = request.Options;
@@ -311,8 +322,8 @@ void vtkTIPPDelaunay2D::AddArrays(const tipp::ConstrainedTriangulation& result, 
   }
   else if (this->GenerateNeighborIds)
   {
-    vtkWarningMacro("No NeighborIds: " << (hasLines ? "the output has lines, too."
-                                                    : "with Alpha not all triangles are output."));
+    vtkWarningMacro(<< (hasLines ? NoNeighbors
+                                 : "No NeighborIds: with Alpha not all triangles are output."));
   }
   if (hasSource && this->ConstraintMarks != NO_MARKS && this->Alpha != 0)
   {
@@ -354,6 +365,53 @@ void vtkTIPPDelaunay2D::SetCells(tipp::Triangulation& triangulation, vtkPolyData
   triangulation.Ids64.empty() ? setCells(triangulation.Ids32) : setCells(triangulation.Ids64);
 }
 
+namespace
+{
+
+/// Properties of the filter. All ranks must take the same collective steps, even if their
+/// properties differ, so those of the first rank count.
+struct RankProperties
+{
+  explicit RankProperties(tipp::Communicator& ranks, vtkTIPPDelaunay2D* filter)
+  {
+    const std::array<double, 6> first =
+      ranks.broadcast(std::array<double, 6>{ filter->GetTolerance(), filter->GetMaximumEdgeLength(),
+        double(filter->GetGatherOnFirstRank()), double(filter->GetBoundingTriangulation()),
+        double(filter->GetGenerateNeighborIds()),
+        double(filter->GetProjectionPlaneMode() == VTK_BEST_FITTING_PLANE) });
+    this->Tolerance = first[0];
+    this->MaximumEdge = first[1];
+    this->Gathers = first[2] != 0;
+    this->AddsBounds = first[3] != 0;
+    this->FindsNeighbors = first[4] != 0;
+    this->FitsPlane = first[5] != 0;
+  }
+
+  double Tolerance;
+  double MaximumEdge;
+  bool Gathers;
+  bool AddsBounds;
+  bool FindsNeighbors;
+  bool FitsPlane;
+};
+
+/// Returns the points with those of a bounding triangulation. `positions`: their positions in the
+/// plane, if these are not those of the points; empty otherwise.
+vtkSmartPointer<vtkPointSet> withBounds(tipp::Communicator& ranks, vtkPointSet* input,
+  double offset, std::vector<tipp::Point2>* positions)
+{
+  const tipp::Box3 bounds = tipp::finiteBounds(input->GetPoints(), &ranks);
+  const std::vector<tipp::Point3> circle = tipp::boundingCircle(bounds, offset);
+  if (positions && !positions->empty() && ranks.rank() == ranks.size() - 1)
+  {
+    std::transform(circle.begin(), circle.end(), std::back_inserter(*positions),
+      [](const tipp::Point3& p) { return tipp::projected<2>(p); });
+  }
+  return tipp::withPointsOnLast(ranks, input, circle);
+}
+
+} // namespace
+
 void vtkTIPPDelaunay2D::ExecuteOnRanks(
   vtkPointSet* given, vtkPolyData* source, vtkInformationVector* outputs)
 {
@@ -362,48 +420,65 @@ void vtkTIPPDelaunay2D::ExecuteOnRanks(
   tipp::Communicator ranks(this->Controller);
   tipp::DistributedTriangulation mine;
   std::optional<tipp::RankSource> shared; // if a rank has a source
+  std::vector<std::string> warnings;
   const auto run = [&]()
   {
     checkProperties(this);
-    tipp::requireUnused({ { "Alpha", this->Alpha != 0 },
-      { "MaximumEdgeLength", this->MaximumEdgeLength > 0 }, { "Tolerance", this->Tolerance > 0 },
-      { "BoundingTriangulation", this->BoundingTriangulation != 0 },
-      { "GenerateNeighborIds", this->GenerateNeighborIds != 0 },
-      { "the best fitting plane", this->ProjectionPlaneMode == VTK_BEST_FITTING_PLANE } });
+    tipp::requireUnused({ { "Alpha", this->Alpha != 0 } });
     tipp::Monitor monitor(this);
     tipp::DistributedOptions options = optionsFor(this);
     options.Progress = [&monitor](double fraction) { return monitor(fraction); };
     tipp::checkPoints(given, "the input");
-    // Collective steps must be done by all ranks or by none, even if their properties differ.
-    std::vector<std::int64_t> wishes{ ranks.rank() == 0 && this->GatherOnFirstRank, wantsGhosts,
-      this->ConstraintMarks == LINES, source != nullptr };
-    ranks.sum(wishes);
-    if (wishes[3] > 0)
+    const RankProperties first(ranks, this);
+    vtkSmartPointer<vtkAbstractTransform> toPlane = this->Transform;
+    if (first.FitsPlane)
     {
+      toPlane = tipp::bestFittingPlane(given->GetPoints(), &ranks);
+    }
+    std::vector<std::int64_t> wishes{ wantsGhosts, this->ConstraintMarks == LINES,
+      source != nullptr, toPlane != nullptr };
+    ranks.sum(wishes);
+    if (wishes[2] > 0)
+    {
+      requireNoTolerance(first.Tolerance);
       const tipp::RankSourceOptions how{ this->MergeSourcePoints != 0, crossingRule(this),
-        wishes[2] > 0, this->Transform, this->NumberOfThreads };
+        wishes[1] > 0, toPlane, this->NumberOfThreads };
       shared = tipp::shareSource(ranks, given, source, how);
     }
-    vtkPointSet* const input = shared ? shared->Input.Get() : given;
+    vtkSmartPointer<vtkPointSet> input = shared ? shared->Input.Get() : given;
+    if (first.AddsBounds && wishes[3] == 0)
+    {
+      input = withBounds(ranks, input, this->Offset, shared ? &shared->Positions : nullptr);
+    }
+    else if (first.AddsBounds)
+    {
+      warnings.emplace_back(NoBounds);
+    }
     const tipp::PointRows rows(ranks, input);
-    const tipp::ProjectedPoints projected(input->GetPoints(), this->Transform);
+    const tipp::ProjectedPoints projected(input->GetPoints(), toPlane);
     tipp::RankPoints points;
     points.Points =
       shared && !shared->Positions.empty() ? tipp::PointsView(shared->Positions) : projected.view();
     rows.describe(points);
-    mine = tipp::triangulateDistributed(ranks, points, options);
+    mine = tipp::triangulateMerged(ranks, points,
+      tipp::toleratedDistance(first.Tolerance, input->GetPoints(), &ranks),
+      [&](const tipp::RankPoints& left)
+      { return tipp::triangulateDistributed(ranks, left, options); });
     if (shared)
     {
       tipp::constrainRanks(ranks, *shared->Segments, options.Threads, mine);
     }
-    if (wishes[0] > 0)
+    tipp::leaveOutLong(ranks, first.MaximumEdge, mine);
+    if (first.Gathers)
     {
       mine = tipp::gatherOnFirst(ranks, std::move(mine));
     }
+    const bool hasLines = shared && wishes[1] > 0;
+    const bool findsNeighbors = first.FindsNeighbors && !hasLines;
     const tipp::GhostTriangles ghosts =
-      wishes[1] > 0 ? tipp::fetchGhosts(ranks, mine) : tipp::GhostTriangles();
+      wishes[0] > 0 || findsNeighbors ? tipp::fetchGhosts(ranks, mine) : tipp::GhostTriangles();
     tipp::ConstraintLines lines;
-    if (shared && wishes[2] > 0)
+    if (hasLines)
     {
       lines =
         tipp::findConstraintLines(ranks, { *shared->Segments, shared->Order, shared->Cells }, mine);
@@ -412,6 +487,14 @@ void vtkTIPPDelaunay2D::ExecuteOnRanks(
     marks.Flags = shared && this->ConstraintMarks == EDGE_FLAGS ? shared->Segments.get() : nullptr;
     marks.Lines = shared && this->ConstraintMarks == LINES ? &lines : nullptr;
     tipp::fillOutput(mine, ranks.rank(), rows, wantsGhosts ? &ghosts : nullptr, marks, output);
+    if (findsNeighbors)
+    {
+      tipp::addNeighborIds(tipp::neighborIds(ranks, mine, ghosts), 3, output);
+    }
+    else if (first.FindsNeighbors)
+    {
+      warnings.emplace_back(NoNeighbors);
+    }
     if (this->GenerateRepresentativeIds)
     {
       tipp::addDuplicatesAndRejected(mine.Duplicates, mine.Rejected, output);
@@ -426,7 +509,8 @@ void vtkTIPPDelaunay2D::ExecuteOnRanks(
   ranks.together(run);
   this->NumberOfDuplicatePoints = mine.AllDuplicates;
   this->NumberOfRejectedPoints = mine.AllRejected;
-  std::vector<std::string> warnings = tipp::warningsOf(mine);
+  const std::vector<std::string> more = tipp::warningsOf(mine);
+  warnings.insert(warnings.end(), more.begin(), more.end());
   if (shared && shared->Figures.NotFinite > 0)
   {
     warnings.push_back(std::to_string(shared->Figures.NotFinite) +

@@ -57,9 +57,10 @@
  * and "RankTriangles"; "MasterSeconds", "LargestMasterMesh"; "MessageKind", "MessageCount" and
  * "MessageBytes". If one rank fails, all fail and the first rank reports the error. That includes
  * failures upstream, unless the application sets its own default executive
- * (vtkAlgorithm::SetDefaultExecutivePrototype), as ParaView does. Alpha, MaximumEdgeLength,
- * Tolerance, BoundingTriangulation, GenerateNeighborIds and the best fitting plane work on a single
- * rank only.
+ * (vtkAlgorithm::SetDefaultExecutivePrototype), as ParaView does. Alpha works on a single rank
+ * only. The Tolerance, MaximumEdgeLength, BoundingTriangulation, GenerateNeighborIds and best
+ * fitting plane of the first rank count for all; points within the Tolerance are merged by
+ * ascending global id, and "NeighborIds" are those of "GlobalCellIds".
  *
  * An aborted or failed run leaves both outputs empty. A failure is reported as an error.
  *

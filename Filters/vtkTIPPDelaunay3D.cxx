@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTIPPDelaunay3D.h"
 
+#include "Distributed/MergedRankPoints.h"
 #include "Distributed3D/DistributedTetrahedralization.h"
 #include "InMemory/AlphaShape.h"
 #include "InMemory/TriangulatePoints.h"
@@ -36,17 +37,16 @@ vtkStandardNewMacro(vtkTIPPDelaunay3D);
 namespace
 {
 
-/// The points and the corners of an octahedron around them.
-vtkSmartPointer<vtkPoints> withOctahedron(vtkPoints* points, double offset)
+/// Returns the corners of an octahedron around a box.
+std::vector<tipp::Point3> octahedron(const tipp::Box3& bounds, double offset)
 {
-  const tipp::Box3 bounds = tipp::finiteBounds(points);
   const double distance = offset * tipp::diagonalOf(bounds);
   std::vector<tipp::Point3> corners(6, bounds.center());
   for (std::size_t i = 0; i < corners.size(); ++i)
   {
     corners[i][i / 2] += i % 2 == 0 ? -distance : distance;
   }
-  return tipp::appendPoints(points, corners);
+  return corners;
 }
 
 void checkProperties(vtkTIPPDelaunay3D* filter)
@@ -118,14 +118,14 @@ void vtkTIPPDelaunay3D::Execute(vtkPointSet* input, vtkInformationVector* output
   }
   else if (this->BoundingTriangulation)
   {
-    points = withOctahedron(points, this->Offset);
+    points = tipp::appendPoints(points, octahedron(tipp::finiteBounds(points), this->Offset));
   }
   const vtkIdType count = points->GetNumberOfPoints();
   std::vector<tipp::Point3> copy;
   const tipp::Point3* const coordinates = tipp::coordinatesOf(points, copy);
   tipp::Triangulation triangles; // of coplanar points
-  tipp::Tetrahedralization mesh =
-    this->Triangulate(coordinates, count, tipp::diagonalOf(tipp::finiteBounds(points)), triangles);
+  tipp::Tetrahedralization mesh = this->Triangulate(
+    coordinates, count, tipp::toleratedDistance(this->Tolerance, points), triangles);
   if (mesh.Aborted)
   {
     return;
@@ -162,7 +162,7 @@ void vtkTIPPDelaunay3D::Execute(vtkPointSet* input, vtkInformationVector* output
 }
 
 tipp::Tetrahedralization vtkTIPPDelaunay3D::Triangulate(
-  const tipp::Point3* points, vtkIdType count, double diagonal, tipp::Triangulation& triangles)
+  const tipp::Point3* points, vtkIdType count, double distance, tipp::Triangulation& triangles)
 {
   tipp::Monitor monitor(this);
   tipp::TetrahedralizationOptions options;
@@ -175,8 +175,7 @@ tipp::Tetrahedralization vtkTIPPDelaunay3D::Triangulate(
   {
     return mesh;
   }
-  mesh = tipp::tetrahedralizePoints(
-    points, std::size_t(count), this->Tolerance * diagonal, options, triangles);
+  mesh = tipp::tetrahedralizePoints(points, std::size_t(count), distance, options, triangles);
   mesh.Aborted = mesh.Aborted || !monitor(1);
   if (!mesh.Aborted)
   {
@@ -218,7 +217,7 @@ void vtkTIPPDelaunay3D::SetCells(tipp::Buffer<int>& ids, int corners,
   add(this->AlphaVerts, shape.Vertices, VTK_VERTEX, 1);
 }
 
-void vtkTIPPDelaunay3D::ExecuteOnRanks(vtkPointSet* input, vtkInformationVector* outputs)
+void vtkTIPPDelaunay3D::ExecuteOnRanks(vtkPointSet* given, vtkInformationVector* outputs)
 {
   vtkUnstructuredGrid* const output = vtkUnstructuredGrid::GetData(outputs, 0);
   const bool wantsGhosts = tipp::wantsGhosts(outputs);
@@ -227,18 +226,24 @@ void vtkTIPPDelaunay3D::ExecuteOnRanks(vtkPointSet* input, vtkInformationVector*
   const auto run = [&]()
   {
     checkProperties(this);
-    tipp::requireUnused({ { "Alpha", this->Alpha != 0 }, { "Tolerance", this->Tolerance > 0 },
-      { "BoundingTriangulation", this->BoundingTriangulation != 0 },
-      { "GenerateNeighborIds", this->GenerateNeighborIds != 0 } });
+    tipp::requireUnused({ { "Alpha", this->Alpha != 0 } });
     tipp::Monitor monitor(this);
     tipp::TetrahedralizationOptions options;
     options.Partitions = this->NumberOfPartitions;
     options.Threads = this->NumberOfThreads;
     options.Progress = [&monitor](double fraction) { return monitor(fraction); };
-    tipp::checkPoints(input, "the input");
-    // Collective steps must be done by all ranks or by none, even if their properties differ.
-    std::vector<std::int64_t> wishes{ ranks.isFirst() && this->GatherOnFirstRank, wantsGhosts };
-    ranks.sum(wishes);
+    tipp::checkPoints(given, "the input");
+    // All ranks must take the same collective steps, even if their properties differ, so those of
+    // the first rank count.
+    const auto [tolerance, gathers, addsBounds, findsNeighbors] =
+      ranks.broadcast(std::array<double, 4>{ this->Tolerance, double(this->GatherOnFirstRank),
+        double(this->BoundingTriangulation), double(this->GenerateNeighborIds) });
+    vtkSmartPointer<vtkPointSet> input = given;
+    if (addsBounds != 0)
+    {
+      const tipp::Box3 bounds = tipp::finiteBounds(given->GetPoints(), &ranks);
+      input = tipp::withPointsOnLast(ranks, given, octahedron(bounds, this->Offset));
+    }
     const tipp::PointRows rows(ranks, input);
     tipp::RankPoints3 points;
     std::vector<tipp::Point3> copy;
@@ -248,14 +253,22 @@ void vtkTIPPDelaunay3D::ExecuteOnRanks(vtkPointSet* input, vtkInformationVector*
         std::size_t(input->GetNumberOfPoints()) };
     }
     rows.describe(points);
-    mine = tipp::tetrahedralizeDistributed(ranks, points, options);
-    if (wishes[0] > 0)
+    mine = tipp::triangulateMerged(ranks, points,
+      tipp::toleratedDistance(tolerance, input->GetPoints(), &ranks),
+      [&](const tipp::RankPoints3& left)
+      { return tipp::tetrahedralizeDistributed(ranks, left, options); });
+    if (gathers != 0)
     {
       mine = tipp::gatherOnFirst(ranks, std::move(mine), options.Threads);
     }
     const tipp::GhostTetrahedra ghosts =
-      wishes[1] > 0 ? tipp::fetchGhosts(ranks, mine) : tipp::GhostTetrahedra();
+      findsNeighbors != 0 || tipp::isTrueOnAny(ranks, wantsGhosts) ? tipp::fetchGhosts(ranks, mine)
+                                                                   : tipp::GhostTetrahedra();
     tipp::fillOutput(mine, ranks.rank(), rows, wantsGhosts ? &ghosts : nullptr, output);
+    if (findsNeighbors != 0)
+    {
+      tipp::addNeighborIds(tipp::neighborIds(ranks, mine, ghosts), int(mine.cellSize()), output);
+    }
     if (this->GenerateRepresentativeIds)
     {
       tipp::addDuplicatesAndRejected(mine.Duplicates, mine.Rejected, output);

@@ -49,7 +49,9 @@
  * "RankTetrahedra"; "MessageKind", "MessageCount" and "MessageBytes". If one rank fails, all fail
  * and the first rank reports the error. That includes failures upstream, unless the application
  * sets its own default executive (vtkAlgorithm::SetDefaultExecutivePrototype), as ParaView does.
- * Alpha, Tolerance, BoundingTriangulation and GenerateNeighborIds work on a single rank only.
+ * Alpha works on a single rank only. The Tolerance, BoundingTriangulation and GenerateNeighborIds
+ * of the first rank count for all; points within the Tolerance are merged by ascending global id,
+ * and "NeighborIds" are those of "GlobalCellIds".
  *
  * An aborted or failed run leaves both outputs empty. A failure is reported as an error.
  *
@@ -243,7 +245,7 @@ private:
   void Execute(vtkPointSet* input, vtkInformationVector* outputs);
   void ExecuteOnRanks(vtkPointSet* input, vtkInformationVector* outputs);
   tipp::Tetrahedralization Triangulate(
-    const tipp::Point<3>* points, vtkIdType count, double diagonal, tipp::Triangulation& triangles);
+    const tipp::Point<3>* points, vtkIdType count, double distance, tipp::Triangulation& triangles);
   void SetCells(tipp::Buffer<int>& ids, int corners, const tipp::TriangulatedPoints& mesh,
     vtkUnstructuredGrid* output) const;
 };

@@ -137,13 +137,18 @@ inline std::size_t ownerOf(std::int64_t id, const std::vector<std::int64_t>& fir
   return std::size_t(next - firstIds.begin()) - 1;
 }
 
-/// Sets the numbers of cells of a mesh, of which this rank has `count`. Collective.
+/// Sets the numbers of cells of a mesh, of which this rank has `count`, also in the statistics of
+/// ranks if there are any yet. Collective.
 template <typename Mesh>
 void numberCells(Communicator& ranks, std::size_t count, Mesh& mine)
 {
   const std::vector<std::int64_t> firsts = firstIndices(ranks, std::int64_t(count));
   mine.FirstCell = firsts[std::size_t(ranks.rank())];
   mine.AllCells = firsts.back();
+  for (std::size_t rank = 0; rank < mine.Statistics.Ranks.size(); ++rank)
+  {
+    mine.Statistics.Ranks[rank].Triangles = firsts[rank + 1] - firsts[rank];
+  }
 }
 
 /// Sends each cell to the rank that owns its vertex of lowest id, and returns those received.
@@ -419,6 +424,50 @@ GhostCells<N, Position> fetchGhosts(
   return ghosts;
 }
 
+/// Returns a function from the local indices of a mesh on `rank` (see DistributedPoints) to
+/// internal ids.
+template <typename Mesh>
+auto internalIds(const Mesh& mine, int rank)
+{
+  const std::int64_t first = mine.FirstIds[std::size_t(rank)];
+  const auto own = std::int64_t(mine.Owned.size());
+  return [&mine, first, own](std::int64_t index)
+  { return index < own ? first + index : mine.GhostIds[std::size_t(index - own)]; };
+}
+
+/// Adds cells, which have internal ids, to those of a mesh, whose corners are local indices.
+/// Fetches other ranks' points that the cells need, and removes those that no cell uses.
+/// Collective.
+template <typename Id, std::size_t N, typename Mesh>
+void addCells(
+  Communicator& ranks, const std::vector<IdCell<N>>& added, Buffer<Id>& corners, Mesh& mine)
+{
+  const std::int64_t first = mine.FirstIds[std::size_t(ranks.rank())];
+  const std::size_t own = mine.Owned.size();
+  std::vector<std::int64_t> ghosts = ghostIds(added, first, first + std::int64_t(own));
+  for (const Id corner : corners)
+  {
+    if (std::size_t(corner) >= own)
+    {
+      ghosts.push_back(mine.GhostIds[std::size_t(corner) - own]);
+    }
+  }
+  sortUnique(ghosts);
+  const auto idOf = internalIds(mine, ranks.rank());
+  const auto indexOf = localIndices(first, own, ghosts);
+  Buffer<Id> all(corners.size() + N * added.size());
+  Id* to = std::transform(corners.begin(), corners.end(), all.begin(),
+    [&](Id corner) { return Id(indexOf(idOf(corner))); });
+  for (const IdCell<N>& cell : added)
+  {
+    to = std::transform(
+      cell.begin(), cell.end(), to, [&](std::int64_t id) { return Id(indexOf(id)); });
+  }
+  corners = std::move(all);
+  mine.Ghosts = fetchPoints(ranks, ghosts, mine.FirstIds, mine.Owned, mine.RowSize);
+  mine.GhostIds = std::move(ghosts);
+}
+
 /// All ranks' values on the first rank, in the order of ranks; none on the others. Collective.
 template <typename T>
 Buffer<T> gatherValues(Communicator& ranks, Buffer<T> mine)
@@ -443,17 +492,6 @@ template <typename T>
 std::vector<T> gatherList(Communicator& ranks, const std::vector<T>& mine)
 {
   return concatenated(ranks.gather(mine));
-}
-
-/// Returns a function from the local indices of a mesh on `rank` (see DistributedPoints) to
-/// internal ids.
-template <typename Mesh>
-auto internalIds(const Mesh& mine, int rank)
-{
-  const std::int64_t first = mine.FirstIds[std::size_t(rank)];
-  const auto own = std::int64_t(mine.Owned.size());
-  return [&mine, first, own](std::int64_t index)
-  { return index < own ? first + index : mine.GhostIds[std::size_t(index - own)]; };
 }
 
 /// Returns a function from the local indices of a mesh to global ids.

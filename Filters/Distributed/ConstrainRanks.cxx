@@ -54,7 +54,7 @@ public:
     append(std::move(crossed), all);
     std::vector<IdTriangle> own = sendToOwners(this->Ranks, all.Triangles, this->Mine.FirstIds);
     std::sort(own.begin(), own.end());
-    this->setTriangles(own);
+    addCells(this->Ranks, own, this->Corners, this->Mine);
     if (this->Segments.cuts())
     {
       this->Positions = this->Mine.positions();
@@ -109,35 +109,6 @@ private:
       }
     }
     return isShared;
-  }
-
-  /// Adds triangles, and fetches the points that they need.
-  void setTriangles(const std::vector<IdTriangle>& added)
-  {
-    std::vector<std::int64_t> ghosts =
-      ghostIds(added, this->First, this->First + std::int64_t(this->Own));
-    for (const Id corner : this->Corners)
-    {
-      if (std::size_t(corner) >= this->Own)
-      {
-        ghosts.push_back(this->Mine.GhostIds[std::size_t(corner) - this->Own]);
-      }
-    }
-    sortUnique(ghosts);
-    const auto idOf = internalIds(this->Mine, this->Ranks.rank());
-    const auto indexOf = localIndices(this->First, this->Own, ghosts);
-    Buffer<Id> corners(this->Corners.size() + 3 * added.size());
-    Id* to = std::transform(this->Corners.begin(), this->Corners.end(), corners.begin(),
-      [&](Id corner) { return Id(indexOf(idOf(corner))); });
-    for (const IdTriangle& triangle : added)
-    {
-      to = std::transform(
-        triangle.begin(), triangle.end(), to, [&](std::int64_t id) { return Id(indexOf(id)); });
-    }
-    this->Corners = std::move(corners);
-    this->Mine.Ghosts =
-      fetchPoints(this->Ranks, ghosts, this->Mine.FirstIds, this->Mine.Owned, this->Mine.RowSize);
-    this->Mine.GhostIds = std::move(ghosts);
   }
 
   Communicator& Ranks;

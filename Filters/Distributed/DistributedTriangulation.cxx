@@ -2,6 +2,7 @@
 #include "Distributed/DistributedTriangulation.h"
 
 #include "Distributed/MasterRun.h"
+#include "Distributed/NeighborCells.h"
 #include "Distributed/RankRun.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Stopwatch.h"
@@ -305,6 +306,31 @@ std::vector<IdTriangle> trianglesByIds(const DistributedTriangulation& mine, int
       ++corner;
     });
   return triangles;
+}
+
+void leaveOutLong(Communicator& ranks, double longest, DistributedTriangulation& mine)
+{
+  longest = ranks.broadcast(longest); // ranks may differ, but must do the same
+  if (!(longest > 0))
+  {
+    return;
+  }
+  const std::vector<Point2> positions = mine.positions();
+  const auto leaveOut = [&](auto& ids)
+  {
+    ids.truncate(3 *
+      dropLongTriangles(ids.data(), ids.size() / 3, longest,
+        [&positions](auto index) { return positions[std::size_t(index)]; }));
+    addCells(ranks, std::vector<IdTriangle>(), ids, mine); // removes points without triangles
+  };
+  mine.Ids64.size() == 0 ? leaveOut(mine.Ids32) : leaveOut(mine.Ids64);
+  numberCells(ranks, mine.triangleCount(), mine);
+}
+
+Buffer<std::int64_t> neighborIds(
+  Communicator& ranks, const DistributedTriangulation& mine, const GhostTriangles& ghosts)
+{
+  return neighborIdsOf(ranks, mine, trianglesByIds(mine, ranks.rank()), ghosts, 3);
 }
 
 GhostTriangles fetchGhosts(Communicator& ranks, const DistributedTriangulation& mine)

@@ -97,9 +97,18 @@ struct DistributedTriangulation : DistributedPoints<Point2>
 VTKTIPPFILTERS_EXPORT DistributedTriangulation triangulateDistributed(
   Communicator& ranks, const RankPoints& points, const DistributedOptions& options = {});
 
+/// Leaves out the triangles with an edge longer than the first rank's `longest`; 0: none. Lengths
+/// are those in the plane. Collective.
+VTKTIPPFILTERS_EXPORT void leaveOutLong(
+  Communicator& ranks, double longest, DistributedTriangulation& mine);
+
 /// Returns the ghosts of this rank's triangles. Collective.
 VTKTIPPFILTERS_EXPORT GhostTriangles fetchGhosts(
   Communicator& ranks, const DistributedTriangulation& mine);
+
+/// Returns the neighbours of this rank's triangles and ghosts; see neighborIdsOf(). Collective.
+VTKTIPPFILTERS_EXPORT Buffer<std::int64_t> neighborIds(
+  Communicator& ranks, const DistributedTriangulation& mine, const GhostTriangles& ghosts);
 
 /// A rank's triangles by internal ids: indices among all ranks' owned points.
 VTKTIPPFILTERS_EXPORT std::vector<IdTriangle> trianglesByIds(

@@ -3,6 +3,7 @@
 
 #include "Arrays/Concatenated.h"
 #include "Distributed/DistributedTriangulation.h"
+#include "Distributed/NeighborCells.h"
 #include "Distributed3D/Plan3.h"
 #include "Distributed3D/RankRun3.h"
 #include "Parallel/ParallelFor.h"
@@ -328,6 +329,22 @@ Buffer<std::int32_t> gatherCells(Communicator& ranks, const DistributedTetrahedr
     ranks.gather(Bytes(orderCells(std::move(cells), std::size_t(points), threads))));
 }
 
+/// Returns a rank's cells by internal ids. In triangles, the last corner is repeated.
+std::vector<IdCell<4>> cellsByIds(const DistributedTetrahedralization& mine, int rank)
+{
+  const auto idOf = internalIds(mine, rank);
+  const std::size_t size = mine.cellSize();
+  std::vector<IdCell<4>> cells(mine.cellCount());
+  for (std::size_t i = 0; i < cells.size(); ++i)
+  {
+    for (std::size_t k = 0; k < 4; ++k)
+    {
+      cells[i][k] = idOf(mine.Ids[size * i + std::min(k, size - 1)]);
+    }
+  }
+  return cells;
+}
+
 } // namespace
 
 DistributedTetrahedralization tetrahedralizeDistributed(
@@ -338,17 +355,13 @@ DistributedTetrahedralization tetrahedralizeDistributed(
 
 GhostTetrahedra fetchGhosts(Communicator& ranks, const DistributedTetrahedralization& mine)
 {
-  const auto idOf = internalIds(mine, ranks.rank());
-  const std::size_t size = mine.cellSize();
-  std::vector<IdCell<4>> cells(mine.cellCount());
-  for (std::size_t i = 0; i < cells.size(); ++i)
-  {
-    for (std::size_t k = 0; k < 4; ++k)
-    {
-      cells[i][k] = idOf(mine.Ids[size * i + std::min(k, size - 1)]);
-    }
-  }
-  return fetchGhosts<Point3>(ranks, mine, cells);
+  return fetchGhosts<Point3>(ranks, mine, cellsByIds(mine, ranks.rank()));
+}
+
+Buffer<std::int64_t> neighborIds(
+  Communicator& ranks, const DistributedTetrahedralization& mine, const GhostTetrahedra& ghosts)
+{
+  return neighborIdsOf(ranks, mine, cellsByIds(mine, ranks.rank()), ghosts, mine.cellSize());
 }
 
 DistributedTetrahedralization gatherOnFirst(

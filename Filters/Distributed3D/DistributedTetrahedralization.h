@@ -58,6 +58,10 @@ VTKTIPPFILTERS_EXPORT DistributedTetrahedralization tetrahedralizeDistributed(
 VTKTIPPFILTERS_EXPORT GhostTetrahedra fetchGhosts(
   Communicator& ranks, const DistributedTetrahedralization& mine);
 
+/// Returns the neighbours of this rank's cells and ghosts; see neighborIdsOf(). Collective.
+VTKTIPPFILTERS_EXPORT Buffer<std::int64_t> neighborIds(
+  Communicator& ranks, const DistributedTetrahedralization& mine, const GhostTetrahedra& ghosts);
+
 /// Moves all cells and points to the first rank; the others return an empty triangulation.
 /// Collective.
 VTKTIPPFILTERS_EXPORT DistributedTetrahedralization gatherOnFirst(

@@ -11,14 +11,14 @@
 #include "vtkIdTypeArray.h"
 #include "vtkMath.h"
 #include "vtkNew.h"
-#include "vtkPlane.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
+#include "vtkPolyData.h"
 #include "vtkTransform.h"
 
 #include <algorithm>
-#include <atomic>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <mutex>
@@ -42,38 +42,6 @@ bool viewInPlace(vtkDataArray* array, PointsView& view)
 bool isFinite(const double p[3])
 {
   return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
-}
-
-bool isFinite(vtkPoints* points)
-{
-  std::atomic<bool> finite{ true };
-  forIndices(points->GetNumberOfPoints(),
-    [&](vtkIdType i)
-    {
-      double p[3];
-      points->GetPoint(i, p);
-      if (!isFinite(p))
-      {
-        finite = false;
-      }
-    });
-  return finite;
-}
-
-vtkSmartPointer<vtkPoints> finitePoints(vtkPoints* points)
-{
-  auto finite = vtkSmartPointer<vtkPoints>::New();
-  finite->SetDataTypeToDouble();
-  for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
-  {
-    double p[3];
-    points->GetPoint(i, p);
-    if (isFinite(p))
-    {
-      finite->InsertNextPoint(p);
-    }
-  }
-  return finite;
 }
 
 } // namespace
@@ -103,33 +71,118 @@ ProjectedPoints::ProjectedPoints(vtkPoints* points, vtkAbstractTransform* toPlan
   viewInPlace<double>(this->Scalars, this->View);
 }
 
-vtkSmartPointer<vtkTransform> bestFittingPlane(vtkPoints* points)
+namespace
 {
-  vtkSmartPointer<vtkPoints> finite = points;
-  if (points && !isFinite(points))
+
+/// Passes a sum from rank to rank, each of which adds its part: add(sum). Returns it on all ranks.
+/// The order of additions is that of the ranks' points, so the result does not depend on how these
+/// are divided. `ranks`: null: only this process.
+template <std::size_t N, typename Add>
+std::array<double, N> sumInOrder(Communicator* ranks, const Add& add)
+{
+  constexpr MessageKind sumMessage = kindAfter(9); // follows those of runs out of core
+  using Sum = std::array<double, N>;
+  const bool areSeveral = ranks && ranks->size() > 1;
+  Sum sum{};
+  if (areSeveral && ranks->rank() > 0)
   {
-    finite = finitePoints(points);
+    sum = unpacked<Sum>(ranks->wait(sumMessage, ranks->rank() - 1).Content);
   }
-  if (!finite || finite->GetNumberOfPoints() == 0)
+  add(sum);
+  if (areSeveral && ranks->rank() + 1 < ranks->size())
+  {
+    ranks->post(ranks->rank() + 1, sumMessage, packed(sum));
+  }
+  return areSeveral ? ranks->allGather(sum).back() : sum;
+}
+
+/// Calls visit(point) for the points whose coordinates are finite.
+template <typename Visit>
+void forFinite(vtkPoints* points, const Visit& visit)
+{
+  for (vtkIdType i = 0; points && i < points->GetNumberOfPoints(); ++i)
+  {
+    Point3 p;
+    points->GetPoint(i, &p.x);
+    if (isFinite(p))
+    {
+      visit(p);
+    }
+  }
+}
+
+/// Returns the unit normal of the plane that fits points with these sums of products of deviations
+/// from their centroid: xx, xy, xz, yy, yz and zz. Returns the z axis if there is no such plane.
+///
+/// Each row of the sums' adjugate matrix is the normal of a regression along one axis. Its diagonal
+/// entry is larger the better the points determine that regression, so it is the row's weight.
+Point3 normalOf(const std::array<double, 6>& sums)
+{
+  const auto [xx, xy, xz, yy, yz, zz] = sums;
+  const double a = yy * zz - yz * yz;
+  const double b = xx * zz - xz * xz;
+  const double c = xx * yy - xy * xy;
+  const double ab = xz * yz - xy * zz;
+  const double ac = xy * yz - xz * yy;
+  const double bc = xy * xz - yz * xx;
+  const std::array<Point3, 3> rows = { { { a, ab, ac }, { ab, b, bc }, { ac, bc, c } } };
+  Point3 normal{ 0, 0, 0 };
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const Point3& row = rows[axis];
+    const double weight = row[axis] * row[axis] * (vtkMath::Dot(&normal.x, &row.x) < 0 ? -1 : 1);
+    normal = { normal.x + weight * row.x, normal.y + weight * row.y, normal.z + weight * row.z };
+  }
+  const double length = vtkMath::Normalize(&normal.x);
+  return std::isfinite(length) && length > 0 ? normal : Point3{ 0, 0, 1 };
+}
+
+} // namespace
+
+vtkSmartPointer<vtkTransform> bestFittingPlane(vtkPoints* points, Communicator* ranks)
+{
+  const std::array<double, 4> sum = sumInOrder<4>(ranks,
+    [points](std::array<double, 4>& all)
+    {
+      forFinite(points,
+        [&all](const Point3& p) {
+          all = { all[0] + p.x, all[1] + p.y, all[2] + p.z, all[3] + 1 };
+        });
+    });
+  const double count = sum[3];
+  if (count == 0)
   {
     return nullptr;
   }
-  double origin[3];
-  double normal[3];
-  vtkPlane::ComputeBestFittingPlane(finite, origin, normal);
+  constexpr double fewest = 3; // fewer points determine no plane
+  const Point3 origin =
+    count < fewest ? Point3{ 0, 0, 0 } : Point3{ sum[0] / count, sum[1] / count, sum[2] / count };
+  std::array<double, 6> products = sumInOrder<6>(ranks,
+    [&](std::array<double, 6>& all)
+    {
+      forFinite(points,
+        [&](const Point3& p)
+        {
+          const Point3 r = { p.x - origin.x, p.y - origin.y, p.z - origin.z };
+          all = { all[0] + r.x * r.x, all[1] + r.x * r.y, all[2] + r.x * r.z, all[3] + r.y * r.y,
+            all[4] + r.y * r.z, all[5] + r.z * r.z };
+        });
+    });
+  std::for_each(products.begin(), products.end(), [count](double& of) { of /= count; });
+  const Point3 normal = count < fewest ? Point3{ 0, 0, 1 } : normalOf(products);
 
   const double up[3] = { 0, 0, 1 };
   double axis[3];
-  vtkMath::Cross(normal, up, axis);
-  const double angle = std::acos(std::clamp(vtkMath::Dot(up, normal), -1.0, 1.0));
+  vtkMath::Cross(&normal.x, up, axis);
+  const double angle = std::acos(std::clamp(vtkMath::Dot(up, &normal.x), -1.0, 1.0));
 
   auto transform = vtkSmartPointer<vtkTransform>::New();
   transform->RotateWXYZ(vtkMath::DegreesFromRadians(angle), axis);
-  transform->Translate(-origin[0], -origin[1], -origin[2]);
+  transform->Translate(-origin.x, -origin.y, -origin.z);
   return transform;
 }
 
-Box3 finiteBounds(vtkPoints* points)
+Box3 finiteBounds(vtkPoints* points, Communicator* ranks)
 {
   std::mutex mutex;
   Box3 bounds = Box3::empty();
@@ -149,12 +202,18 @@ Box3 finiteBounds(vtkPoints* points)
       const std::lock_guard<std::mutex> lock(mutex);
       bounds.extend(part);
     });
+  bounds = ranks ? ranks->boundsOfAll(bounds) : bounds;
   return bounds.isEmpty() ? Box3{} : bounds;
 }
 
 double diagonalOf(const Box3& box)
 {
   return std::hypot(box.width(0), box.width(1), box.width(2));
+}
+
+double toleratedDistance(double tolerance, vtkPoints* points, Communicator* ranks)
+{
+  return tolerance > 0 ? tolerance * diagonalOf(finiteBounds(points, ranks)) : 0;
 }
 
 vtkSmartPointer<vtkPoints> appendPoints(vtkPoints* points, const std::vector<Point3>& added)
@@ -173,9 +232,8 @@ vtkSmartPointer<vtkPoints> appendPoints(vtkPoints* points, const std::vector<Poi
   return extended;
 }
 
-vtkSmartPointer<vtkPoints> appendBoundingPoints(vtkPoints* points, double offset)
+std::vector<Point3> boundingCircle(const Box3& bounds, double offset)
 {
-  const Box3 bounds = finiteBounds(points);
   const Point3 center = bounds.center();
   const double radius = offset * diagonalOf(bounds);
   std::vector<Point3> circle(8);
@@ -185,7 +243,20 @@ vtkSmartPointer<vtkPoints> appendBoundingPoints(vtkPoints* points, double offset
     circle[i] = { center.x + radius * std::cos(angle), center.y + radius * std::sin(angle),
       center.z };
   }
-  return appendPoints(points, circle);
+  return circle;
+}
+
+vtkSmartPointer<vtkPointSet> withPointsOnLast(
+  Communicator& ranks, vtkPointSet* input, const std::vector<Point3>& added)
+{
+  vtkSmartPointer<vtkPoints> points = input->GetPoints();
+  if (ranks.rank() == ranks.size() - 1)
+  {
+    points = appendPoints(points ? points : vtkSmartPointer<vtkPoints>::New(), added);
+  }
+  auto set = vtkSmartPointer<vtkPolyData>::New();
+  set->SetPoints(points);
+  return set;
 }
 
 const Point3* coordinatesOf(vtkPoints* points, std::vector<Point3>& copy)

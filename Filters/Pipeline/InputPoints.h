@@ -38,15 +38,22 @@ private:
   PointsView View;
 };
 
+// In the next three functions, `points` may be null. `ranks`: whose points are added to `points`;
+// the call is collective then. Null: none.
+
 /// Returns the transform that moves the points' least-squares plane to the plane z = 0 and their
 /// centroid to the origin. Points with a NaN or infinite coordinate are ignored; returns null if
-/// there are no others.
-vtkSmartPointer<vtkTransform> bestFittingPlane(vtkPoints* points);
+/// there are no others. Does not depend on how the points are divided among the ranks.
+vtkSmartPointer<vtkTransform> bestFittingPlane(vtkPoints* points, Communicator* ranks = nullptr);
 
 /// Returns the bounding box of the points whose three coordinates are finite, so that a single NaN
 /// or infinity does not determine a tolerance or a bounding circle. All zero if there are no such
-/// points. `points` may be null.
-Box3 finiteBounds(vtkPoints* points);
+/// points.
+Box3 finiteBounds(vtkPoints* points, Communicator* ranks = nullptr);
+
+/// Returns the distance within which points are merged: `tolerance` times the length of the
+/// diagonal of the points' bounding box, see finiteBounds().
+double toleratedDistance(double tolerance, vtkPoints* points, Communicator* ranks = nullptr);
 
 /// Returns the length of the box's diagonal.
 double diagonalOf(const Box3& box);
@@ -54,9 +61,13 @@ double diagonalOf(const Box3& box);
 /// Returns the points in double precision, followed by those of `added`.
 vtkSmartPointer<vtkPoints> appendPoints(vtkPoints* points, const std::vector<Point3>& added);
 
-/// Returns the points in double precision, followed by eight points on a circle around the centre
-/// of their bounding box, at its middle height. The radius is `offset` times the box's diagonal.
-vtkSmartPointer<vtkPoints> appendBoundingPoints(vtkPoints* points, double offset);
+/// Returns eight points on a circle around the centre of a box, at its middle height. The radius is
+/// `offset` times the box's diagonal.
+std::vector<Point3> boundingCircle(const Box3& bounds, double offset);
+
+/// Returns this rank's points without their data. The last rank's are followed by those of `added`.
+vtkSmartPointer<vtkPointSet> withPointsOnLast(
+  Communicator& ranks, vtkPointSet* input, const std::vector<Point3>& added);
 
 /// Returns the coordinates as doubles: the memory of `points`, or `copy` filled with them. Valid as
 /// long as both exist.

@@ -109,6 +109,12 @@ vtkSmartPointer<vtkUnsignedCharArray> takeArray(
   return array;
 }
 
+void addNeighborIds(Buffer<std::int64_t> ids, int corners, vtkDataSet* output)
+{
+  ids.truncate(std::size_t(corners) * std::size_t(output->GetNumberOfCells()));
+  output->GetCellData()->AddArray(takeArray("NeighborIds", std::move(ids), corners));
+}
+
 namespace
 {
 

@@ -16,6 +16,7 @@
 #include <string>
 
 class vtkCellArray;
+class vtkDataSet;
 class vtkIdTypeArray;
 class vtkPolyData;
 class vtkUnsignedCharArray;
@@ -42,6 +43,10 @@ vtkSmartPointer<vtkIdTypeArray> takeArray(
 vtkSmartPointer<vtkUnsignedCharArray> takeArray(
   const std::string& name, Buffer<unsigned char> values, int components);
 ///@}
+
+/// Adds the cell array NeighborIds, with `corners` values for each cell of the output. `ids` may
+/// have values of more cells, which are left out.
+void addNeighborIds(Buffer<std::int64_t> ids, int corners, vtkDataSet* output);
 
 /// How the output marks constraints; null members are not used.
 struct ConstraintMarks

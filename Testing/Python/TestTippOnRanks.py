@@ -45,6 +45,16 @@ class TippOnRanks(unittest.TestCase):
         multi = self.triangles(3, "--masters", "multi", "--major", "2x2", "--minor", "3x3")
         np.testing.assert_array_equal(multi, alone)
 
+    def test_long_edges_are_left_out_on_any_number_of_ranks(self):
+        longest = ["--max-edge", "0.01"]
+        alone = self.triangles(1, *longest)
+        self.assertTrue(0 < len(alone) < len(self.triangles(1)))
+        for ranks in (2, 5):
+            np.testing.assert_array_equal(self.triangles(ranks, *longest, "--stats", "run.json"), alone)
+            statistics = json.loads((self.folder / "run.json").read_text())
+            self.assertEqual(statistics["triangles"], len(alone))
+            self.assertEqual(sum(rank["triangles"] for rank in statistics["ranks"]), len(alone))
+
     def test_las_files_are_shared_among_ranks(self):
         shared = np.random.default_rng(3).integers(0, 100000, (9000, 3))
         for name, part in (("a.las", shared[:4000]), ("b.las", shared[4000:])):

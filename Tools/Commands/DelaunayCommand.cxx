@@ -375,10 +375,6 @@ void writeOnFirst(Communicator& ranks, const DelaunayArguments& arguments, Delau
 /// output and prints messages. Collective.
 void triangulateShares(Communicator& ranks, const DelaunayArguments& arguments)
 {
-  if (arguments.MaximumEdge > 0)
-  {
-    throw std::runtime_error("--max-edge needs one rank, or an output named .tipp.");
-  }
   const PathState before = ranks.rank() == 0 ? requireOutputs(arguments) : PathState();
   DelaunayRun run;
   Stopwatch watch;
@@ -416,6 +412,7 @@ void triangulateShares(Communicator& ranks, const DelaunayArguments& arguments)
   {
     constrainRanks(ranks, *constraints.Segments, options.Threads, mine);
   }
+  leaveOutLong(ranks, arguments.MaximumEdge, mine);
   bar.reset();
   run.Points = mine.AllPoints;
   run.TriangulateSeconds = watch.restart();

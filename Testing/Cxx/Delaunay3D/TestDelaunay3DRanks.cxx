@@ -321,20 +321,14 @@ TEST(Delaunay3DRanks, StatisticsAreTheSameOnAllRanks)
 
 TEST(Delaunay3DRanks, OptionsForOneRankAreRefusedOnAll)
 {
-  for (int what = 0; what < 4; ++what)
-  {
-    vtkNew<vtkTIPPDelaunay3D> filter;
-    filter->SetAlpha(what == 0 ? 0.1 : 0);
-    filter->SetTolerance(what == 1 ? 0.01 : 0);
-    filter->SetBoundingTriangulation(what == 2);
-    filter->SetGenerateNeighborIds(what == 3);
-    filter->SetInputData(shareOf(pointsInSpace("uniform", 500), true));
-    vtkObject::GlobalWarningDisplayOff();
-    filter->Update();
-    vtkObject::GlobalWarningDisplayOn();
-    EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
-    EXPECT_NE(filter->GetErrorCode(), 0U);
-  }
+  vtkNew<vtkTIPPDelaunay3D> filter;
+  filter->SetAlpha(0.1);
+  filter->SetInputData(shareOf(pointsInSpace("uniform", 500), true));
+  vtkObject::GlobalWarningDisplayOff();
+  filter->Update();
+  vtkObject::GlobalWarningDisplayOn();
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
+  EXPECT_NE(filter->GetErrorCode(), 0U);
 }
 
 TEST(Delaunay3DRanks, APropertyThatIsNotFiniteOnOneRankIsRefusedOnAll)
@@ -364,6 +358,163 @@ TEST(Delaunay3DRanks, AnUpstreamFailureOnOneRankFailsOnAll)
   source->Modified();
   filter->Update();
   EXPECT_GT(filter->GetStatistics()->GetFieldData()->GetArray("Tetrahedra")->GetTuple1(0), 2500);
+}
+
+namespace
+{
+
+/// A cell by its corners, and for each corner the corners of the cell opposite to it. Triangles
+/// have -1 in place of a fourth corner. All are global point ids; all -1: there is no cell.
+using CellWithNeighbors = std::map<std::int64_t, Tetrahedron>;
+
+struct NumberedCell
+{
+  std::int64_t Number;
+  std::int64_t IsGhost;
+  Tetrahedron Corners; ///< in the output's order
+  Tetrahedron Neighbors;
+};
+
+std::vector<NumberedCell> numberedCells(vtkUnstructuredGrid* mesh)
+{
+  vtkDataArray* const points = mesh->GetPointData()->GetGlobalIds();
+  vtkDataArray* const numbers = mesh->GetCellData()->GetGlobalIds();
+  auto* const neighbors =
+    vtkIdTypeArray::SafeDownCast(mesh->GetCellData()->GetArray("NeighborIds"));
+  auto* const ghosts = vtkUnsignedCharArray::SafeDownCast(
+    mesh->GetCellData()->GetAbstractArray(vtkDataSetAttributes::GhostArrayName()));
+  std::vector<NumberedCell> cells;
+  for (vtkIdType i = 0; i < mesh->GetNumberOfCells(); ++i)
+  {
+    vtkIdType size = 0;
+    const vtkIdType* corners = nullptr;
+    mesh->GetCellPoints(i, size, corners);
+    NumberedCell cell{ numbers ? idAt(numbers, i) : i, ghosts && ghosts->GetValue(i) != 0 ? 1 : 0,
+      { -1, -1, -1, -1 }, { -1, -1, -1, -1 } };
+    for (int k = 0; k < int(size); ++k)
+    {
+      cell.Corners[std::size_t(k)] = points ? idAt(points, corners[k]) : corners[k];
+      cell.Neighbors[std::size_t(k)] = neighbors ? neighbors->GetTypedComponent(i, k) : -1;
+    }
+    cells.push_back(cell);
+  }
+  return cells;
+}
+
+/// Returns the cells with their neighbours, in an order that does not depend on numbers. Ghosts
+/// must have the neighbours that their owners have, and are left out.
+std::vector<CellWithNeighbors> withNeighbors(const std::vector<NumberedCell>& cells)
+{
+  std::map<std::int64_t, NumberedCell> byNumber;
+  for (const NumberedCell& cell : cells)
+  {
+    if (cell.IsGhost == 0)
+    {
+      byNumber[cell.Number] = cell;
+    }
+  }
+  std::vector<CellWithNeighbors> result;
+  for (const NumberedCell& cell : cells)
+  {
+    if (cell.IsGhost != 0)
+    {
+      EXPECT_EQ(byNumber.at(cell.Number).Neighbors, cell.Neighbors);
+      continue;
+    }
+    result.emplace_back();
+    for (std::size_t k = 0; k < 4; ++k)
+    {
+      Tetrahedron other = { -1, -1, -1, -1 };
+      other = cell.Neighbors[k] < 0 ? other : byNumber.at(cell.Neighbors[k]).Corners;
+      std::sort(other.begin(), other.end());
+      result.back()[cell.Corners[k]] = other;
+    }
+  }
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+template <typename Configure>
+void expectSameAsOneRank(const std::vector<Point3>& points, const Configure& configure,
+  int ghostLevels = 0, const std::vector<bool>& haveIds = { true, false })
+{
+  vtkNew<vtkPoints> all;
+  all->SetDataTypeToDouble();
+  for (const Point3& p : points)
+  {
+    all->InsertNextPoint(p.x, p.y, p.z);
+  }
+  vtkNew<vtkPolyData> whole;
+  whole->SetPoints(all);
+  vtkNew<vtkTIPPDelaunay3D> alone;
+  alone->SetController(nullptr);
+  alone->SetInputData(whole);
+  configure(alone);
+  vtkObject::GlobalWarningDisplayOff(); // coplanar points have no tetrahedra
+  alone->Update();
+  for (const bool withIds : haveIds)
+  {
+    vtkNew<vtkTIPPDelaunay3D> filter;
+    filter->SetInputData(shareOf(points, withIds));
+    configure(filter);
+    filter->UpdatePiece(rank(), ranks(), ghostLevels);
+    Communicator box(vtkMultiProcessController::GetGlobalController());
+    std::vector<NumberedCell> cells;
+    for (const auto& part : box.gather(numberedCells(filter->GetOutput())))
+    {
+      cells.insert(cells.end(), part.begin(), part.end());
+    }
+    box.barrier();
+    EXPECT_EQ(alone->GetNumberOfDuplicatePoints(), filter->GetNumberOfDuplicatePoints());
+    if (rank() == 0)
+    {
+      const auto expected = withNeighbors(numberedCells(alone->GetOutput()));
+      EXPECT_FALSE(expected.empty());
+      EXPECT_TRUE(expected == withNeighbors(cells));
+    }
+  }
+  vtkObject::GlobalWarningDisplayOn();
+}
+
+} // namespace
+
+TEST(Delaunay3DRanks, NeighborIdsAreTheCellsAcrossTheFacets)
+{
+  auto points = pointsInSpace("uniform", 1500);
+  const auto configure = [](vtkTIPPDelaunay3D* filter)
+  {
+    filter->GenerateNeighborIdsOn();
+    filter->SetNumberOfPartitions(10);
+  };
+  for (const int ghostLevels : { 0, 1 })
+  {
+    expectSameAsOneRank(points, configure, ghostLevels);
+  }
+  for (Point3& p : points) // triangles
+  {
+    p.y = 2 * p.x;
+  }
+  expectSameAsOneRank(points, configure, 1);
+}
+
+TEST(Delaunay3DRanks, ToleranceMergesTheSamePoints)
+{
+  for (const double tolerance : { 1e-9, 0.01, 0.05 })
+  {
+    expectSameAsOneRank(pointsInSpace("uniform", 1500),
+      [tolerance](vtkTIPPDelaunay3D* filter) { filter->SetTolerance(tolerance); });
+  }
+}
+
+TEST(Delaunay3DRanks, BoundingTriangulationHasTheSamePoints)
+{
+  expectSameAsOneRank(pointsInSpace("uniform", 1000),
+    [](vtkTIPPDelaunay3D* filter)
+    {
+      filter->BoundingTriangulationOn();
+      filter->SetTolerance(0.005);
+    },
+    0, { false }); // the points are numbered afresh
 }
 
 TEST(Delaunay3DRanks, WithoutAControllerEachRankWorksAlone)
