@@ -368,33 +368,6 @@ void vtkTIPPDelaunay2D::SetCells(tipp::Triangulation& triangulation, vtkPolyData
 namespace
 {
 
-/// Properties of the filter. All ranks must take the same collective steps, even if their
-/// properties differ, so those of the first rank count.
-struct RankProperties
-{
-  explicit RankProperties(tipp::Communicator& ranks, vtkTIPPDelaunay2D* filter)
-  {
-    const std::array<double, 6> first =
-      ranks.broadcast(std::array<double, 6>{ filter->GetTolerance(), filter->GetMaximumEdgeLength(),
-        double(filter->GetGatherOnFirstRank()), double(filter->GetBoundingTriangulation()),
-        double(filter->GetGenerateNeighborIds()),
-        double(filter->GetProjectionPlaneMode() == VTK_BEST_FITTING_PLANE) });
-    this->Tolerance = first[0];
-    this->MaximumEdge = first[1];
-    this->Gathers = first[2] != 0;
-    this->AddsBounds = first[3] != 0;
-    this->FindsNeighbors = first[4] != 0;
-    this->FitsPlane = first[5] != 0;
-  }
-
-  double Tolerance;
-  double MaximumEdge;
-  bool Gathers;
-  bool AddsBounds;
-  bool FindsNeighbors;
-  bool FitsPlane;
-};
-
 /// Returns the points with those of a bounding triangulation. `positions`: their positions in the
 /// plane, if these are not those of the points; empty otherwise.
 vtkSmartPointer<vtkPointSet> withBounds(tipp::Communicator& ranks, vtkPointSet* input,
@@ -408,6 +381,72 @@ vtkSmartPointer<vtkPointSet> withBounds(tipp::Communicator& ranks, vtkPointSet* 
       [](const tipp::Point3& p) { return tipp::projected<2>(p); });
   }
   return tipp::withPointsOnLast(ranks, input, circle);
+}
+
+/// A rank's input.
+struct RankInput
+{
+  vtkPointSet* Data;
+  vtkAbstractTransform* ToPlane;  ///< null: z is dropped
+  const tipp::RankSource* Source; ///< null: no rank has a source
+  const tipp::PointRows& Rows;
+};
+
+/// Triangulates all ranks' points. Merges those within the tolerance, inserts the constraints, and
+/// leaves out triangles with an edge longer than `longest`.
+tipp::DistributedTriangulation triangulateInput(tipp::Communicator& ranks, const RankInput& input,
+  double tolerance, double longest, const tipp::DistributedOptions& options)
+{
+  const tipp::ProjectedPoints projected(input.Data->GetPoints(), input.ToPlane);
+  const bool isMoved = input.Source && !input.Source->Positions.empty();
+  tipp::RankPoints points;
+  points.Points = isMoved ? tipp::PointsView(input.Source->Positions) : projected.view();
+  input.Rows.describe(points);
+  tipp::DistributedTriangulation mine = tipp::triangulateMerged(ranks, points,
+    tipp::toleratedDistance(tolerance, input.Data->GetPoints(), &ranks),
+    [&](const tipp::RankPoints& left)
+    { return tipp::triangulateDistributed(ranks, left, options); });
+  if (input.Source)
+  {
+    tipp::constrainRanks(ranks, *input.Source->Segments, options.Threads, mine);
+  }
+  tipp::leaveOutLong(ranks, longest, mine);
+  return mine;
+}
+
+/// How a rank's output is made. Members that say 'all' are the same on all ranks.
+struct RankOutput
+{
+  bool HasGhosts;     ///< with ghosts on this rank
+  bool FetchesGhosts; ///< all: a rank has ghosts
+  bool AddsNeighbors; ///< all: with NeighborIds
+  bool FindsLines;    ///< all: a rank marks constraints by lines
+  int Marks;          ///< ConstraintMarks of this rank
+};
+
+void fillRankOutput(tipp::Communicator& ranks, const tipp::DistributedTriangulation& mine,
+  const RankInput& input, const RankOutput& how, vtkPolyData* output)
+{
+  const tipp::GhostTriangles ghosts = how.FetchesGhosts || how.AddsNeighbors
+    ? tipp::fetchGhosts(ranks, mine)
+    : tipp::GhostTriangles();
+  const tipp::RankSource* const source = input.Source;
+  tipp::ConstraintLines lines;
+  if (how.FindsLines)
+  {
+    lines =
+      tipp::findConstraintLines(ranks, { *source->Segments, source->Order, source->Cells }, mine);
+  }
+  tipp::ConstraintMarks marks;
+  marks.Flags =
+    source && how.Marks == vtkTIPPDelaunay2D::EDGE_FLAGS ? source->Segments.get() : nullptr;
+  marks.Lines = source && how.Marks == vtkTIPPDelaunay2D::LINES ? &lines : nullptr;
+  tipp::fillOutput(
+    mine, ranks.rank(), input.Rows, how.HasGhosts ? &ghosts : nullptr, marks, output);
+  if (how.AddsNeighbors)
+  {
+    tipp::addNeighborIds(tipp::neighborIds(ranks, mine, ghosts), 3, output);
+  }
 }
 
 } // namespace
@@ -429,9 +468,15 @@ void vtkTIPPDelaunay2D::ExecuteOnRanks(
     tipp::DistributedOptions options = optionsFor(this);
     options.Progress = [&monitor](double fraction) { return monitor(fraction); };
     tipp::checkPoints(given, "the input");
-    const RankProperties first(ranks, this);
+    // All ranks must take the same collective steps, even if their properties differ, so those of
+    // the first rank count.
+    const auto [tolerance, longest, gathers, addsBounds, findsNeighbors, fitsPlane] =
+      ranks.broadcast(std::array<double, 6>{ this->Tolerance, this->MaximumEdgeLength,
+        double(this->GatherOnFirstRank), double(this->BoundingTriangulation),
+        double(this->GenerateNeighborIds),
+        double(this->ProjectionPlaneMode == VTK_BEST_FITTING_PLANE) });
     vtkSmartPointer<vtkAbstractTransform> toPlane = this->Transform;
-    if (first.FitsPlane)
+    if (fitsPlane != 0)
     {
       toPlane = tipp::bestFittingPlane(given->GetPoints(), &ranks);
     }
@@ -440,58 +485,32 @@ void vtkTIPPDelaunay2D::ExecuteOnRanks(
     ranks.sum(wishes);
     if (wishes[2] > 0)
     {
-      requireNoTolerance(first.Tolerance);
+      requireNoTolerance(tolerance);
       const tipp::RankSourceOptions how{ this->MergeSourcePoints != 0, crossingRule(this),
         wishes[1] > 0, toPlane, this->NumberOfThreads };
       shared = tipp::shareSource(ranks, given, source, how);
     }
     vtkSmartPointer<vtkPointSet> input = shared ? shared->Input.Get() : given;
-    if (first.AddsBounds && wishes[3] == 0)
+    if (addsBounds != 0 && wishes[3] == 0)
     {
       input = withBounds(ranks, input, this->Offset, shared ? &shared->Positions : nullptr);
     }
-    else if (first.AddsBounds)
+    else if (addsBounds != 0)
     {
       warnings.emplace_back(NoBounds);
     }
     const tipp::PointRows rows(ranks, input);
-    const tipp::ProjectedPoints projected(input->GetPoints(), toPlane);
-    tipp::RankPoints points;
-    points.Points =
-      shared && !shared->Positions.empty() ? tipp::PointsView(shared->Positions) : projected.view();
-    rows.describe(points);
-    mine = tipp::triangulateMerged(ranks, points,
-      tipp::toleratedDistance(first.Tolerance, input->GetPoints(), &ranks),
-      [&](const tipp::RankPoints& left)
-      { return tipp::triangulateDistributed(ranks, left, options); });
-    if (shared)
-    {
-      tipp::constrainRanks(ranks, *shared->Segments, options.Threads, mine);
-    }
-    tipp::leaveOutLong(ranks, first.MaximumEdge, mine);
-    if (first.Gathers)
+    const RankInput rankInput{ input, toPlane, shared ? &*shared : nullptr, rows };
+    mine = triangulateInput(ranks, rankInput, tolerance, longest, options);
+    if (gathers != 0)
     {
       mine = tipp::gatherOnFirst(ranks, std::move(mine));
     }
     const bool hasLines = shared && wishes[1] > 0;
-    const bool findsNeighbors = first.FindsNeighbors && !hasLines;
-    const tipp::GhostTriangles ghosts =
-      wishes[0] > 0 || findsNeighbors ? tipp::fetchGhosts(ranks, mine) : tipp::GhostTriangles();
-    tipp::ConstraintLines lines;
-    if (hasLines)
-    {
-      lines =
-        tipp::findConstraintLines(ranks, { *shared->Segments, shared->Order, shared->Cells }, mine);
-    }
-    tipp::ConstraintMarks marks;
-    marks.Flags = shared && this->ConstraintMarks == EDGE_FLAGS ? shared->Segments.get() : nullptr;
-    marks.Lines = shared && this->ConstraintMarks == LINES ? &lines : nullptr;
-    tipp::fillOutput(mine, ranks.rank(), rows, wantsGhosts ? &ghosts : nullptr, marks, output);
-    if (findsNeighbors)
-    {
-      tipp::addNeighborIds(tipp::neighborIds(ranks, mine, ghosts), 3, output);
-    }
-    else if (first.FindsNeighbors)
+    const bool addsNeighbors = findsNeighbors != 0 && !hasLines;
+    fillRankOutput(ranks, mine, rankInput,
+      { wantsGhosts, wishes[0] > 0, addsNeighbors, hasLines, this->ConstraintMarks }, output);
+    if (findsNeighbors != 0 && hasLines)
     {
       warnings.emplace_back(NoNeighbors);
     }
@@ -509,7 +528,7 @@ void vtkTIPPDelaunay2D::ExecuteOnRanks(
   ranks.together(run);
   this->NumberOfDuplicatePoints = mine.AllDuplicates;
   this->NumberOfRejectedPoints = mine.AllRejected;
-  const std::vector<std::string> more = tipp::warningsOf(mine);
+  const std::vector<std::string> more = tipp::warningsOf(mine, this->MaximumEdgeLength > 0);
   warnings.insert(warnings.end(), more.begin(), more.end());
   if (shared && shared->Figures.NotFinite > 0)
   {

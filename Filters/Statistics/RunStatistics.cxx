@@ -273,6 +273,22 @@ void addConstraintTotals(const ConstraintFigures& figures, RunStatistics& statis
     { statistics.add(key, array, value); });
 }
 
+namespace
+{
+
+/// Explains that there are no triangles; `distinct`: the number of finite and distinct points.
+std::string describeNoTriangles(std::int64_t points, std::int64_t distinct, bool longEdgesLeftOut)
+{
+  return "No triangles: of " + std::to_string(points) + " points, " + std::to_string(distinct) +
+    " are finite and distinct" +
+    (distinct < 3          ? ", but a triangle needs three."
+        : longEdgesLeftOut ? ", and all triangles have edges that are too long, or all points are "
+                             "on one line."
+                           : ", and all are on one line.");
+}
+
+} // namespace
+
 std::vector<std::string> warningsOf(
   const Triangulation& triangulation, std::int64_t points, bool longEdgesLeftOut)
 {
@@ -281,12 +297,7 @@ std::vector<std::string> warningsOf(
   if (triangulation.triangleCount() == 0)
   {
     const std::int64_t distinct = points - std::int64_t(triangulation.Duplicates.size()) - rejected;
-    warnings.push_back("No triangles: of " + std::to_string(points) + " points, " +
-      std::to_string(distinct) + " are finite and distinct" +
-      (distinct < 3          ? ", but a triangle needs three."
-          : longEdgesLeftOut ? ", and all triangles have edges that are too long, or all points "
-                               "are on one line."
-                             : ", and all are on one line."));
+    warnings.push_back(describeNoTriangles(points, distinct, longEdgesLeftOut));
   }
   return warnings;
 }
@@ -308,14 +319,14 @@ std::vector<std::string> warningsOf(const OutOfCoreStatistics3& statistics)
   return warnOfRejected(statistics.Rejected, statistics.Points, "left out");
 }
 
-std::vector<std::string> warningsOf(const DistributedTriangulation& mine)
+std::vector<std::string> warningsOf(const DistributedTriangulation& mine, bool longEdgesLeftOut)
 {
   std::vector<std::string> warnings =
     warnOfRejected(mine.AllRejected, mine.AllPoints, "in no triangle");
   if (mine.AllCells == 0)
   {
-    warnings.emplace_back("No triangles: all ranks together have fewer than three distinct finite "
-                          "points, or all are on one line.");
+    const std::int64_t distinct = mine.AllPoints - mine.AllDuplicates - mine.AllRejected;
+    warnings.push_back(describeNoTriangles(mine.AllPoints, distinct, longEdgesLeftOut));
   }
   return warnings;
 }

@@ -87,7 +87,7 @@ VTKTIPPFILTERS_EXPORT std::vector<std::string> warningsOf(
   const Tetrahedralization& mesh, std::int64_t points);
 VTKTIPPFILTERS_EXPORT std::vector<std::string> warningsOf(const OutOfCoreStatistics& statistics);
 VTKTIPPFILTERS_EXPORT std::vector<std::string> warningsOf(const OutOfCoreStatistics3& statistics);
-std::vector<std::string> warningsOf(const DistributedTriangulation& mine);
+std::vector<std::string> warningsOf(const DistributedTriangulation& mine, bool longEdgesLeftOut);
 VTKTIPPFILTERS_EXPORT std::vector<std::string> warningsOf(
   const DistributedTetrahedralization& mine);
 ///@}

@@ -169,7 +169,7 @@ std::vector<Cell> withCorners(const std::vector<OutputCell>& cells)
   return result;
 }
 
-/// The merged points and their representatives, sorted.
+/// The merged points and their representatives, and rejected points with -1, sorted.
 using Pairs = std::vector<std::pair<std::int64_t, std::int64_t>>;
 
 Pairs gatherMerged(vtkPolyData* mesh)
@@ -180,6 +180,10 @@ Pairs gatherMerged(vtkPolyData* mesh)
   {
     own.push_back({ idAt(data->GetArray("DuplicatePointIds"), i),
       idAt(data->GetArray("DuplicateRepresentativeIds"), i) });
+  }
+  for (vtkIdType i = 0; i < data->GetArray("RejectedPointIds")->GetNumberOfTuples(); ++i)
+  {
+    own.push_back({ idAt(data->GetArray("RejectedPointIds"), i), -1 });
   }
   Communicator box(vtkMultiProcessController::GetGlobalController());
   Pairs all;
@@ -260,11 +264,19 @@ void expectSameAsOneRank(
 
 TEST(Delaunay2DOptionsOnRanks, NeighborIdsAreTheTrianglesAcrossTheEdges)
 {
-  for (const int ghostLevels : { 0, 1 })
+  for (const bool isGathered : { false, true })
   {
-    expectSameAsOneRank(
-      surface("uniform", 3000), [](vtkTIPPDelaunay2D* filter) { filter->GenerateNeighborIdsOn(); },
-      ghostLevels);
+    for (const int ghostLevels : { 0, 1 })
+    {
+      expectSameAsOneRank(
+        surface("uniform", 3000),
+        [isGathered](vtkTIPPDelaunay2D* filter)
+        {
+          filter->GenerateNeighborIdsOn();
+          filter->SetGatherOnFirstRank(isGathered);
+        },
+        ghostLevels);
+    }
   }
 }
 

@@ -64,7 +64,7 @@ TEST(FiniteBounds, CentreOfHugeBoundsDoesNotOverflow)
 
 TEST(BoundingPoints, FollowThePointsOnACircleAroundTheirBox)
 {
-  const auto extended = appendBoundingPoints(box(), 2);
+  const auto extended = appendPoints(box(), boundingCircle(finiteBounds(box()), 2));
   ASSERT_EQ(11, extended->GetNumberOfPoints());
   EXPECT_EQ(6, extended->GetPoint(1)[1]);
   for (vtkIdType i = 3; i < 11; ++i)
@@ -82,7 +82,7 @@ TEST(BoundingPoints, AreInDoublePrecision)
   points->InsertNextPoint(0, 0, 0);
   points->InsertNextPoint(1, 1, 0);
   ASSERT_EQ(VTK_FLOAT, points->GetDataType());
-  EXPECT_EQ(VTK_DOUBLE, appendBoundingPoints(points, 1)->GetDataType());
+  EXPECT_EQ(VTK_DOUBLE, appendPoints(points, boundingCircle({}, 1))->GetDataType());
 }
 
 TEST(ProjectedPoints, NoPointsMakeAnEmptyView)
