@@ -7,7 +7,6 @@
 #include "Files/InputFile.h"
 #include "Files/TemporaryPaths.h"
 #include "Files/VtkXml.h"
-#include "Meshes/MeshFiles.h"
 #include "Partitioning/PartitionMesh.h"
 #include "Points/ReadPoints.h"
 
@@ -35,14 +34,14 @@ std::string readingOf(const std::string& path)
       line + "\".");
 }
 
-[[noreturn]] void refuseCells(const std::string& path)
+} // namespace
+
+void refuseVtkCells(const std::string& path)
 {
   refuse(path, "PyVista writes its cells",
     "import numpy, pyvista; numpy.save('cells.npy', *" + readingOf(path) +
       ".cast_to_unstructured_grid().cells_dict.values())");
 }
-
-} // namespace
 
 void refuseVtkMesh(const std::string& path)
 {
@@ -65,26 +64,6 @@ ConstraintTable readVtkConstraints(const std::string& path)
 std::string cellTypeName(int type)
 {
   return "type " + std::to_string(type);
-}
-
-TriangleMesh readVtkTriangles(const std::string& path)
-{
-  refuseCells(path);
-}
-
-bool holdsVtkTriangles(const std::string& path)
-{
-  refuseCells(path);
-}
-
-bool holdsVtkTetrahedra(const std::string& path)
-{
-  refuseCells(path);
-}
-
-StoredTetrahedra readVtkTetrahedra(const std::string& path)
-{
-  refuseCells(path);
 }
 
 PartitionStatistics partitionVtkFile(

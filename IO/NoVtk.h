@@ -13,6 +13,9 @@ namespace tipp
 /// PyVista makes a partitioned mesh of it.
 [[noreturn]] VTKTIPPIO_EXPORT void refuseVtkMesh(const std::string& path);
 
+/// Does the same for a file whose cells are wanted, and says how PyVista writes these.
+[[noreturn]] VTKTIPPIO_EXPORT void refuseVtkCells(const std::string& path);
+
 } // namespace tipp
 
 #endif

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Replaces everything that needs VTK, in a build without it: ranks, VTK's files and resampling.
+// Replaces everything that needs VTK, in a build without it: ranks, VTK's files, means and volumes.
 #include "NoVtk.h"
 #include "Commands/Commands.h"
 #include "Commands/LeftOut.h"
@@ -55,13 +55,6 @@ void addRemapCommand(CLI::App& app, int&)
   addLeftOut(app, "remap",
     "'tipp remap' needs VTK, and this tipp was built without it; in "
     "Python, tipp.remap(source, target) does the same.");
-}
-
-void addResampleCommand(CLI::App& app, int&)
-{
-  addLeftOut(app, "resample",
-    "'tipp resample' needs VTK, and this tipp was built without it; in Python, "
-    "tipp.resample(tipp.read('mesh.tipp'), dimensions=(512, 512, 1)) does the same.");
 }
 
 void addVolumeCommand(CLI::App& app, int&)

@@ -5,6 +5,7 @@
 #include "Parallel/ParallelFor.h"
 #include "Pipeline/FilterPipeline.h"
 #include "Ranks/Communicator.h"
+#include "Sampling/HiddenSamples.h"
 #include "Statistics/RunStatistics.h"
 
 #include "vtkCellData.h"
@@ -316,96 +317,6 @@ unsigned char* addGhosts(vtkDataSetAttributes* data, std::int64_t count)
   return ghosts->GetPointer(0);
 }
 
-// Separate functions, so that the compiler can assume that the bytes written alias nothing.
-
-/// Marks invalid points as hidden. `count` must fit into a byte. Returns the number of valid
-/// points.
-unsigned char hidePoints(
-  const unsigned char* valid, std::int64_t count, unsigned char* __restrict ghosts)
-{
-  unsigned char hits = 0;
-  for (std::int64_t i = 0; i < count; ++i)
-  {
-    ghosts[i] = (unsigned char)((valid[i] - 1) & vtkDataSetAttributes::HIDDENPOINT);
-    hits = (unsigned char)(hits + valid[i]);
-  }
-  return hits;
-}
-
-/// Computes for each column whether the points of all four rows are valid.
-void joinRows(
-  const unsigned char* const (&rows)[4], std::int64_t count, unsigned char* __restrict valid)
-{
-  const unsigned char* const a = rows[0];
-  const unsigned char* const b = rows[1];
-  const unsigned char* const c = rows[2];
-  const unsigned char* const d = rows[3];
-  for (std::int64_t i = 0; i < count; ++i)
-  {
-    valid[i] = a[i] & b[i] & c[i] & d[i];
-  }
-}
-
-/// Hides cells with invalid points; a cell's columns of points are `right` apart.
-void hideCells(const unsigned char* valid, std::int64_t right, std::int64_t count,
-  unsigned char* __restrict ghosts)
-{
-  for (std::int64_t i = 0; i < count; ++i)
-  {
-    const int whole = valid[i] & valid[i + right];
-    ghosts[i] = (unsigned char)((whole - 1) & vtkDataSetAttributes::HIDDENCELL);
-  }
-}
-
-/// Hides the points that are not valid. Returns the number of valid points.
-std::int64_t fillPointGhosts(
-  const unsigned char* valid, std::int64_t size, int threads, unsigned char* ghosts)
-{
-  std::vector<std::int64_t> counts(std::size_t(threads), 0);
-  forChunks(size, 1 << 16, threads, {},
-    [&](std::int64_t begin, std::int64_t end, int thread)
-    {
-      constexpr std::int64_t few = 1 << 7; // the count fits into a byte; lanes are summed in bytes
-      std::int64_t count = 0;
-      for (std::int64_t first = begin; first < end; first += few)
-      {
-        count += hidePoints(valid + first, std::min(few, end - first), ghosts + first);
-      }
-      counts[std::size_t(thread)] += count;
-    });
-  return std::accumulate(counts.begin(), counts.end(), std::int64_t(0));
-}
-
-void fillCellGhosts(const unsigned char* valid, int threads, vtkImageData* image)
-{
-  unsigned char* const first = addGhosts(image->GetCellData(), image->GetNumberOfCells());
-  int dimensions[3];
-  image->GetDimensions(dimensions);
-  const std::int64_t width = dimensions[0];
-  const std::int64_t layer = width * dimensions[1];
-  const int columns = std::max(1, dimensions[0] - 1);
-  const int rows = std::max(1, dimensions[1] - 1);
-  const int layers = std::max(1, dimensions[2] - 1);
-  const std::int64_t right = dimensions[0] > 1 ? 1 : 0;
-  const std::int64_t back = dimensions[1] > 1 ? width : 0;
-  const std::int64_t up = dimensions[2] > 1 ? layer : 0;
-  const auto fillRow = [&](std::int64_t row, std::vector<unsigned char>& corners)
-  {
-    const unsigned char* const points = valid + row / rows * layer + row % rows * width;
-    joinRows({ points, points + back, points + up, points + up + back }, width, corners.data());
-    hideCells(corners.data(), right, columns, first + row * columns);
-  };
-  forChunks(std::int64_t(rows) * layers, 64, threads, {},
-    [&](std::int64_t begin, std::int64_t end, int)
-    {
-      std::vector<unsigned char> corners(static_cast<std::size_t>(width));
-      for (std::int64_t row = begin; row < end; ++row)
-      {
-        fillRow(row, corners);
-      }
-    });
-}
-
 } // namespace
 
 void exchangeSamples(SampledImage& local, SampledImage& result, Communicator& ranks)
@@ -430,8 +341,9 @@ std::int64_t fillImage(SampledImage& samples, int threads, vtkImageData* image)
     return 0;
   }
   const unsigned char* const valid = samples.valid();
-  fillCellGhosts(valid, threads, image);
-  return fillPointGhosts(valid, samples.samples(), threads, addGhosts(data, samples.samples()));
+  markHiddenCells(
+    lattice, valid, threads, addGhosts(image->GetCellData(), image->GetNumberOfCells()));
+  return markHiddenSamples(valid, samples.samples(), threads, addGhosts(data, samples.samples()));
 }
 
 void fillTable(const SamplingStatistics& statistics, std::int64_t samples, std::int64_t hits,

@@ -5,6 +5,7 @@
 #include "Overlap/OverlapSums.h"
 #include "Resample/Resample.h"
 #include "Sampling/KeptClaims.h"
+#include "Sampling/SampleNames.h"
 #include "Sampling/SimplexParts.h"
 
 #include "vtkCharArray.h"
@@ -43,9 +44,6 @@ struct SamplingSettings
   /// Merging, Conservative, NoData, which hides other cells at each step, or a Device.
   KeptClaims* Kept = nullptr;
 };
-
-/// The name of the array with the share of each pixel, or of each cell, that a mesh covers.
-constexpr const char* coveredShareName = "CoveredShare";
 
 /// Counts and wall-clock times of sampling on this rank.
 struct SamplingStatistics

@@ -2,6 +2,7 @@
 #ifndef tippSamplingRange_h
 #define tippSamplingRange_h
 
+#include "Sampling/SampleNames.h"
 #include "Sampling/SamplingLattice.h"
 #include "vtkTIPPFiltersModule.h"
 
@@ -21,9 +22,6 @@ namespace tipp
 {
 
 class Communicator;
-
-/// The name of the point array with the heights of a surface.
-constexpr const char* elevationName = "elevation";
 
 /// The lowest and the highest finite z of meshes, and whether one has an array of elevations.
 struct HeightRange

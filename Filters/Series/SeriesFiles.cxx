@@ -7,12 +7,7 @@
 #include "Files/VtkXml.h"
 #include "Npy/NpyFile.h"
 #include "Raster/RasterFile.h"
-#include "Vtk/DataSets.h"
-
-#include "vtkFloatArray.h"
-#include "vtkImageData.h"
-#include "vtkNew.h"
-#include "vtkPointData.h"
+#include "Sampling/ImageFile.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -35,17 +30,6 @@ std::string stepPath(const std::string& path, std::size_t number, const std::str
   std::snprintf(digits, sizeof digits, "_%04zu", number);
   const fs::path file(path);
   return (file.parent_path() / (file.stem().string() + digits + extension)).string();
-}
-
-RasterGrid gridOf(const Lattice& lattice)
-{
-  RasterGrid grid;
-  grid.Columns = lattice.size(0);
-  grid.Rows = lattice.size(1);
-  grid.Pixel = { lattice.Delta[0], lattice.Delta[1] };
-  grid.West = gridPosition(lattice.Min[0], lattice.Delta[0], -1);
-  grid.South = gridPosition(lattice.Min[1], lattice.Delta[1], -1);
-  return grid;
 }
 
 /// Which fields are in a file.
@@ -132,7 +116,7 @@ private:
   void writeFile(const std::string& path, const std::vector<std::size_t>& fields) override
   {
     RasterDescription raster;
-    raster.Grid = gridOf(this->Of.Grid);
+    raster.Grid = pixelsOf(this->Of.Grid);
     raster.Crs = this->Of.Crs;
     raster.NoData = this->Of.NoData;
     raster.Threads = this->Of.Threads;
@@ -169,10 +153,13 @@ public:
     FilePerStep::close();
     std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n"
                        "<Collection>\n";
-    for (std::size_t i = 0; i < this->Of.Times.size(); ++i)
+    // Without fields that vary there is one file.
+    const bool hasSteps = !fieldsOf(this->Of, true).empty();
+    const std::vector<double> times = hasSteps ? this->Of.Times : std::vector<double>{ 0 };
+    for (std::size_t i = 0; i < times.size(); ++i)
     {
       char time[64];
-      std::snprintf(time, sizeof time, "%.17g", this->Of.Times[i]);
+      std::snprintf(time, sizeof time, "%.17g", times[i]);
       text += "<DataSet timestep=\"" + std::string(time) + "\" file=\"" +
         escapedXml(fs::path(this->Paths[i]).filename().string()) + "\"/>\n";
     }
@@ -184,20 +171,16 @@ public:
 private:
   void writeFile(const std::string& path, const std::vector<std::size_t>& fields) override
   {
-    vtkNew<vtkImageData> image;
-    const Lattice& grid = this->Of.Grid;
-    image->SetDimensions(int(grid.size(0)), int(grid.size(1)), 1);
-    image->SetOrigin(grid.Min[0], grid.Min[1], 0);
-    image->SetSpacing(grid.Delta[0], grid.Delta[1], 1);
+    ImageArrays image;
+    image.Grid = this->Of.Grid;
+    image.Grid.Min[2] = 0;
+    image.Grid.Delta[2] = 1;
     for (const std::size_t field : fields)
     {
-      vtkNew<vtkFloatArray> array;
-      array->SetName(this->Of.Fields[field].Name.c_str());
-      // VTK does not change the memory of an array that it is told to save.
-      array->SetArray(this->Samples[field].data(), vtkIdType(this->Samples[field].size()), 1);
-      image->GetPointData()->AddArray(array);
+      image.OfPoints.push_back(
+        { this->Of.Fields[field].Name, Scalar::Float32, 1, this->Samples[field].data() });
     }
-    writeXmlFile(path, std::nullopt, image);
+    writeVti(path, std::nullopt, image);
   }
 
   PendingFile List;
@@ -272,14 +255,14 @@ std::vector<std::string> SeriesFiles::paths() const
   const Opener opener = openerOf(this->Path, Use::WritesSeries);
   const bool hasSteps = !fieldsOf(this->Of, true).empty();
   const bool hasOthers = !fieldsOf(this->Of, false).empty();
-  if (opener == Opener::Netcdf || opener == Opener::Npy || !hasSteps ||
-    (opener == Opener::GeoTiff && this->Numbers.size() == 1 && !hasOthers))
+  const bool isTiff = opener == Opener::GeoTiff;
+  if (opener == Opener::Netcdf || opener == Opener::Npy ||
+    (isTiff && (!hasSteps || (this->Numbers.size() == 1 && !hasOthers))))
   {
     return { this->Path };
   }
-  const bool isTiff = opener == Opener::GeoTiff;
   std::vector<std::string> paths;
-  for (const std::size_t number : this->Numbers)
+  for (const std::size_t number : hasSteps ? this->Numbers : std::vector<std::size_t>())
   {
     paths.push_back(stepPath(this->Path, number, isTiff ? extensionOf(this->Path) : ".vti"));
   }

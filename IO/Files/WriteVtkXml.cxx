@@ -2,6 +2,7 @@
 #include "Files/WriteVtkXml.h"
 
 #include "Files/RawArray.h"
+#include "Files/TextFile.h"
 #include "Files/VtkXml.h"
 
 namespace tipp
@@ -9,12 +10,41 @@ namespace tipp
 namespace
 {
 
+/// Returns the numbers with blanks between them, each so that reading it gives the same number.
+template <std::size_t N, typename T>
+std::string inOrder(const std::array<T, N>& numbers)
+{
+  std::string text;
+  for (const T number : numbers)
+  {
+    text += (text.empty() ? "" : " ") + exactText(double(number));
+  }
+  return text;
+}
+
+std::string componentNames(const XmlArray& array)
+{
+  std::string text;
+  for (std::size_t i = 0; i < array.ComponentNames.size(); ++i)
+  {
+    text +=
+      " ComponentName" + std::to_string(i) + "=\"" + escapedXml(array.ComponentNames[i]) + "\"";
+  }
+  return text;
+}
+
 /// Returns the file's text up to the appended data.
 std::string headOf(const XmlPiece& piece)
 {
   std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"" + piece.Type +
-    "\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n  <" + piece.Type +
-    ">\n    <Piece";
+    "\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n  <" + piece.Type;
+  if (piece.Grid)
+  {
+    text += " WholeExtent=\"" + inOrder(piece.Grid->Extent) + "\" Origin=\"" +
+      inOrder(piece.Grid->Origin) + "\" Spacing=\"" + inOrder(piece.Grid->Spacing) + "\"";
+  }
+  text += ">\n    <Piece";
+  text += piece.Grid ? " Extent=\"" + inOrder(piece.Grid->Extent) + "\"" : "";
   for (const auto& [name, count] : piece.Counts)
   {
     text += " " + name + "=\"" + std::to_string(count) + "\"";
@@ -29,7 +59,8 @@ std::string headOf(const XmlPiece& piece)
     {
       text += std::string("        <DataArray type=\"") + scalarName(array.Type) + "\" Name=\"" +
         escapedXml(array.Name) + "\" NumberOfComponents=\"" + std::to_string(array.Components) +
-        "\" format=\"appended\" offset=\"" + std::to_string(offset) + "\"/>\n";
+        "\"" + componentNames(array) + " format=\"appended\" offset=\"" + std::to_string(offset) +
+        "\"/>\n";
       offset += sizeof(std::uint64_t) + array.Bytes;
     }
     text += "      </" + section.Name + ">\n";

@@ -8,6 +8,7 @@
 #include "vtkTIPPIOModule.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -37,7 +38,8 @@ struct XmlArray
   Scalar Type = Scalar::Float64;
   int Components = 1;
   std::uint64_t Bytes = 0;
-  std::function<void(std::ostream&)> Write; ///< writes all Bytes
+  std::function<void(std::ostream&)> Write;     ///< writes all Bytes
+  std::vector<std::string> ComponentNames = {}; ///< empty, or a name for each component
 };
 
 /// Returns an array of values in the caller's memory, which must outlive it.
@@ -81,13 +83,22 @@ struct XmlSection
   std::string Scalars; ///< the name of the array of scalars; empty: none
 };
 
+/// The points of an image in a VTK XML file.
+struct XmlGrid
+{
+  std::array<int, 6> Extent = {}; ///< first and last index along x, y and z
+  std::array<double, 3> Origin = {};
+  std::array<double, 3> Spacing = { 1, 1, 1 };
+};
+
 /// The content of a VTK XML file of one piece.
 struct XmlPiece
 {
-  std::string Type; ///< UnstructuredGrid or PolyData
+  std::string Type; ///< UnstructuredGrid, PolyData or ImageData
   /// The attributes of the piece, such as NumberOfPoints, and their values.
   std::vector<std::pair<std::string, std::uint64_t>> Counts;
   std::vector<XmlSection> Sections;
+  std::optional<XmlGrid> Grid = std::nullopt; ///< of ImageData
 };
 
 /// Writes a piece with its arrays raw and appended. `before` as for PendingFile. Returns false, and

@@ -144,12 +144,43 @@ class Tool(unittest.TestCase):
         for words in (["flatten", "a.vtu", "-o", "b"], ["query", "points.npy", "a.vtu", "-o", "b.csv"], ["delaunay", "a.vtp", "-o", "b.npy"]):
             self.assertNotIn("VTK", self.refused(*words), words)
 
-    def test_resampling_names_the_function(self):
-        self.assertIn("tipp.resample(", self.refused("resample", "mesh.tipp", "-o", "a.npy", "--dims", 8, 8, 1))
+    def test_a_device_is_refused_in_one_sentence(self):
+        self.run_tipp("delaunay", "points.npy", "-o", "a.vtu")
+        sentence = self.refused("resample", "a.vtu", "-o", "a.npy", "--dims", 8, 8, "--device", "opencl")
+        self.assertIn("built without OpenCL", sentence)
 
-    def test_check_names_the_function(self):
+    def test_samples_are_the_same_in_parts(self):
+        self.run_tipp("delaunay", "points.npy", "-o", "m.tipp", "--memory", "8M")
+        images = []
+        for number, options in enumerate(([], ["--memory", "100K"], ["--memory", "1K", "--threads", 1])):
+            self.run_tipp("resample", "m.tipp", "-o", f"{number}.vti", "--dims", 60, 50, *options)
+            images.append((self.folder / f"{number}.vti").read_bytes())
+        self.assertEqual(images, [images[0]] * 3)
+
+    def test_samples_of_a_plane_are_its_heights(self):
+        points = self.points.copy()
+        points[:, 2] = 2 * points[:, 0] - points[:, 1]
+        np.save(self.folder / "plane.npy", points)
+        self.run_tipp("delaunay", "plane.npy", "-o", "plane.vtu")
+        self.run_tipp("resample", "plane.vtu", "-o", "a.npy", "--bounds", 40, 60, 40, 60, "--dims", 21, 11)
+        x, y = np.meshgrid(np.linspace(40, 60, 21), np.linspace(40, 60, 11))
+        np.testing.assert_allclose(np.load(self.folder / "a.npy"), 2 * x - y, atol=1e-12)
+
+    def test_faults_of_a_mesh_are_found(self):
         self.run_tipp("delaunay", "points.npy", "-o", "a.npy")
-        self.assertIn("tipp.check(", self.refused("check", "points.npy", "a.npy"))
+        self.assertIn("correct", self.run_tipp("check", "points.npy", "a.npy", "--tie-rule").stdout)
+        triangles = np.load(self.folder / "a.npy")
+        for name, content in (("lost.npy", triangles[1:]), ("turned.npy", np.r_[triangles[:1, ::-1], triangles[1:]])):
+            np.save(self.folder / name, content)
+            run = self.run_words("check", "points.npy", name)
+            self.assertEqual(run.returncode, 1)
+            self.assertIn("FAULTY", run.stdout)
+
+    def test_points_on_circles_are_checked_exactly(self):
+        x, y = np.meshgrid(np.arange(30), np.arange(30))
+        np.save(self.folder / "grid.npy", np.c_[x.ravel(), y.ravel(), np.zeros(900)] * 0.1)
+        self.run_tipp("delaunay", "grid.npy", "-o", "a.npy")
+        self.assertIn("co-circular ties: correct", self.run_tipp("check", "grid.npy", "a.npy", "--tie-rule").stdout)
 
     def test_codes_of_epsg_need_no_other_package(self):
         for crs, keys in (("EPSG:25832", {1024: 1, 1025: 1, 3072: 25832}), ("EPSG:4326", {1024: 2, 1025: 1, 2048: 4326}),
@@ -254,6 +285,15 @@ class Tool(unittest.TestCase):
             (["query", "places.npy", "m.tipp", "-o", "q.csv"], "q.csv"),
             (["query", "places.npy", "m.tipp", "-o", "r.vtp", "--descend", "elevation"], "r.vtp"),
             (["flatten", "a.14", "-o", "flat"], "flat"), (["partition", "flat", "-o", "p.tipp"], "p.tipp")]
+        grid, box = ["--dims", 41, 37], ["--bounds", 20, 61, 30, 70]
+        commands += [(["resample", mesh, "-o", name, *options], name)
+                     for mesh, name, options in (
+                         ("a.vtu", "ra.npy", grid), ("a.vtu", "rb.vti", [*grid, *box]), ("m.tipp", "rc.vti", [*grid, "--memory", "100K"]),
+                         ("m.tipp", "rd.tif", ["--resolution", 0.7, *box, "--crs", "EPSG:25832"]), ("flat", "re.vti", grid),
+                         ("a.vtu", "rf.vti", [*grid, "--method", "conservative", "--covered-share"]),
+                         ("m.tipp", "rg.npy", [*grid, "--method", "conservative"]), ("flat", "rh.npy", [*grid, *box, "--null", -1]),
+                         ("s.vtu", "ri.vti", ["--dims", 9, 8, 7]), ("a.14", "rj.tif", ["--resolution", 1]),
+                         ("a.14", "rk.npy", grid), ("a.14", "rl.pvd", grid))]
         for words, name in commands:
             with self.subTest(" ".join(map(str, words))):
                 contents = []
@@ -269,10 +309,35 @@ class Tool(unittest.TestCase):
     @unittest.skipIf(CXX is None, "TIPP_CXX does not name the C++ tool")
     def test_messages_are_those_of_the_cxx_tool(self):
         for words in (["info", "points.npy"], ["dem", "--help"], ["delaunay", "--help"], ["query", "--help"], ["--version"],
+                      ["resample", "--help"], ["check", "--help"], ["resample", "a.vtu", "-o", "a.npy"],
+                      ["resample", "absent.vtu", "-o", "a.npy", "--dims", 2, 2],
                       ["dem", "points.npy", "-o", "a.tif"], ["dem", "points.npy", "-o", "a.xyz", "--resolution", 1],
                       ["dem", "absent.npy", "-o", "a.tif", "--resolution", 1]):
             first, second = self.run_words(*words), self.run_words(*words, tool=(CXX,))
             self.assertEqual((first.returncode, first.stdout, first.stderr), (second.returncode, second.stdout, second.stderr))
+
+    @unittest.skipIf(CXX is None, "TIPP_CXX does not name the C++ tool")
+    def test_checks_are_those_of_the_cxx_tool(self):
+        (self.folder / "lines.csv").write_text("x1,y1,x2,y2\n10,10,80,80\n10,80,80,10\n")
+        self.run_tipp("delaunay", "points.npy", "-o", "a.npy")
+        self.run_tipp("delaunay", "points.npy", "-o", "m.tipp", "--memory", "8M")
+        self.run_tipp("delaunay", "points.npy", "-o", "c.vtu", "--constraints", "lines.csv")
+        self.run_tipp("delaunay3d", "points.npy", "-o", "s.npy")
+        self.run_tipp("delaunay3d", "points.npy", "-o", "s.vtu", "--neighbors")
+        self.run_tipp("delaunay", "points.npy", "-o", "n.vtu", "--neighbors")
+        (self.folder / "box.csv").write_text("x1,y1,x2,y2\n0,0,90,0\n90,0,90,80\n90,80,0,80\n0,80,0,0\n0,0,90,80\n")
+        self.run_tipp("mesh", "box.csv", "-o", "q.14", "--min-angle", 25.5, "--max-area", 20)
+        np.save(self.folder / "cut.npy", np.load(self.folder / "a.npy")[5:])
+        np.save(self.folder / "hole.npy", np.load(self.folder / "s.npy")[5:])
+        for words in (["points.npy", "a.npy"], ["points.npy", "m.tipp", "--tie-rule"], ["points.npy", "s.npy"], ["points.npy", "cut.npy"],
+                      ["points.npy", "hole.npy"], ["points.npy", "cut.npy", "--boundary-free"], ["points.npy", "c.vtu", "--constraints", "lines.csv"],
+                      ["points.npy", "c.vtu"], ["points.npy", "s.vtu"], ["points.npy", "n.vtu"],
+                      ["q.14", "--quality", "25.5", "--constraints", "box.csv"], ["q.14", "--quality", "33.3", "--constraints", "box.csv"],
+                      ["q.14", "--quality", "25.5", "--max-area", 20, "--constraints", "box.csv"], ["points.npy", "a.npy", "--quality", "61"], ["points.npy"],
+                      ["points.npy", "a.npy", "--quality", "x"], ["points.npy", "a.npy", "--quality", "0.1", "--max-area", 1e-3]):
+            with self.subTest(" ".join(map(str, words))):
+                first, second = (self.run_words("check", *words, tool=(tool,)) for tool in (TIPP, CXX))
+                self.assertEqual((first.returncode, first.stdout, first.stderr), (second.returncode, second.stdout, second.stderr))
 
 
 if __name__ == "__main__":

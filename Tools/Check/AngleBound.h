@@ -2,9 +2,8 @@
 #ifndef tippAngleBound_h
 #define tippAngleBound_h
 
+#include "Check/DecimalAngle.h"
 #include "Check/ExactTests.h"
-
-#include <gmpxx.h>
 
 #include <string>
 
@@ -28,18 +27,10 @@ public:
   }
 
 private:
-  /// Two numbers with the squared cosine between them, or both equal to it.
-  struct Enclosure
-  {
-    mpq_class Low;
-    mpq_class High;
-  };
-
   bool isBelow(Position apex, Position p, Position q) const;
   bool isBelowExactly(Position apex, Position p, Position q) const;
-  Enclosure enclose(long bits) const;
 
-  mpq_class Degrees;
+  DecimalAngle Degrees;
   Enclosure Square;   ///< of the squared cosine
   double RoundSquare; ///< the squared cosine, within a relative error of 2^-52
 };

@@ -33,11 +33,43 @@ inline bool isBefore(Position a, Position b)
   return a.x < b.x || (a.x == b.x && a.y < b.y);
 }
 
+/// A point in space.
+struct Position3
+{
+  double x;
+  double y;
+  double z;
+};
+
+inline bool operator==(const Position3& a, const Position3& b)
+{
+  return a.x == b.x && a.y == b.y && a.z == b.z;
+}
+
+/// The lexicographic order.
+inline bool operator<(const Position3& a, const Position3& b)
+{
+  return a.x < b.x || (a.x == b.x && (a.y < b.y || (a.y == b.y && a.z < b.z)));
+}
+
+/// @name Signs
+/// They are exact: by CGAL's kernel, and in the Python wheel by ExactNumber.
+///@{
 /// Returns +1 if a, b, c turn counter-clockwise, -1 if clockwise, 0 if they are collinear.
 int turn(Position a, Position b, Position c);
 
 /// Returns +1 if d is inside the circle of the counter-clockwise a, b, c, -1 outside, 0 on it.
 int inCircle(Position a, Position b, Position c, Position d);
+
+/// Returns the sign of the determinant of b - a, c - a and d - a.
+int turn(const Position3& a, const Position3& b, const Position3& c, const Position3& d);
+
+/// Returns +1 if e is inside the sphere of a, b, c, d, whose turn() is +1, -1 outside, 0 on it.
+int inSphere(const Position3& a, const Position3& b, const Position3& c, const Position3& d,
+  const Position3& e);
+
+bool areCollinear(const Position3& a, const Position3& b, const Position3& c);
+///@}
 
 /// Returns whether the edge from a to b, with c on its left and d on its right, is not locally
 /// Delaunay. With `tieRule` also if all four are on a circle and the edge is the diagonal that the

@@ -2,33 +2,35 @@
 #ifndef tippExactVector_h
 #define tippExactVector_h
 
+#include "Check/ExactNumber.h"
 #include "Check/ExactTests.h"
-
-#include <gmpxx.h>
 
 namespace tipp
 {
 namespace check
 {
 
-/// The vector from one position to another, as rationals: without any rounding.
+/// The vector from one position to another, without any rounding.
 class ExactVector
 {
 public:
   ExactVector(Position from, Position to)
-    : X(mpq_class(to.x) - mpq_class(from.x))
-    , Y(mpq_class(to.y) - mpq_class(from.y))
+    : X(ExactNumber(to.x) - ExactNumber(from.x))
+    , Y(ExactNumber(to.y) - ExactNumber(from.y))
   {
   }
 
-  mpq_class dot(const ExactVector& other) const { return this->X * other.X + this->Y * other.Y; }
-  mpq_class cross(const ExactVector& other) const { return this->X * other.Y - this->Y * other.X; }
+  ExactNumber dot(const ExactVector& other) const { return this->X * other.X + this->Y * other.Y; }
+  ExactNumber cross(const ExactVector& other) const
+  {
+    return this->X * other.Y - this->Y * other.X;
+  }
   /// Returns the squared length.
-  mpq_class square() const { return this->dot(*this); }
+  ExactNumber square() const { return this->dot(*this); }
 
 private:
-  mpq_class X;
-  mpq_class Y;
+  ExactNumber X;
+  ExactNumber Y;
 };
 
 } // namespace check

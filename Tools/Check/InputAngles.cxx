@@ -47,7 +47,7 @@ bool InputAngles::explain(std::int64_t a, std::int64_t b, std::int64_t c) const
   const auto square = [this](const std::array<std::int64_t, 2>& edge)
   { return ExactVector(this->Mesh.at(edge[0]), this->Mesh.at(edge[1])).square(); };
   std::array<std::array<std::int64_t, 2>, 3> edges{ { { a, b }, { b, c }, { c, a } } };
-  const mpq_class shortest = std::min({ square(edges[0]), square(edges[1]), square(edges[2]) });
+  const ExactNumber shortest = std::min({ square(edges[0]), square(edges[1]), square(edges[2]) });
   return std::any_of(edges.begin(), edges.end(),
     [&](const auto& edge) { return square(edge) == shortest && this->joins(edge[0], edge[1]); });
 }
@@ -101,7 +101,7 @@ bool InputAngles::meetAtSmallAngle(const Passing& p, const Passing& q) const
     }
     const ExactVector u = towards(p, meeting.Place);
     const ExactVector v = towards(q, other->Place);
-    const mpq_class dot = u.dot(v);
+    const ExactNumber dot = u.dot(v);
     // The cosine of 60 degrees is 1/2.
     if (dot > 0 && u.cross(v) != 0 && 4 * dot * dot > u.square() * v.square())
     {

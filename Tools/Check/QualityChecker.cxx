@@ -36,7 +36,8 @@ Position positionAt(const std::vector<double>& xy, std::size_t i)
 
 bool isExactlyLarger(const Corners& t, double area)
 {
-  return check::ExactVector(t.A, t.B).cross(check::ExactVector(t.A, t.C)) > 2 * mpq_class(area);
+  return check::ExactVector(t.A, t.B).cross(check::ExactVector(t.A, t.C)) >
+    2 * check::ExactNumber(area);
 }
 
 /// Returns whether the area of a triangle is above a limit. With e = 2^-53, differences and

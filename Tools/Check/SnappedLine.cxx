@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Check/SnappedLine.h"
 
-#include <gmpxx.h>
+#include "Check/ExactNumber.h"
 
 #include <algorithm>
 #include <cmath>
@@ -79,7 +79,7 @@ bool meets(Position a, Position b, Position p, Gaps x, Gaps y, double units)
   {
     return true;
   }
-  const LineInBox<mpq_class> exact(a, b, p, x, y, units);
+  const LineInBox<ExactNumber> exact(a, b, p, x, y, units);
   return exact.Highest >= 0 && exact.Lowest <= 0;
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Check/DelaunayChecker.h"
-
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include "Check/ExactTests.h"
 
 #include <algorithm>
 #include <array>
@@ -14,9 +13,7 @@ namespace tipp
 namespace
 {
 
-// The checker's own predicates: it shares no code with the algorithm that it checks.
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Point = Kernel::Point_3;
+using check::Position3;
 using Id = std::int64_t;
 
 /// A facet of a tetrahedron, ids ascending, and the corner opposite to it.
@@ -63,7 +60,7 @@ public:
   }
 
 private:
-  Point at(Id id) const
+  Position3 at(Id id) const
   {
     const std::size_t i = 3 * std::size_t(id);
     return { this->XYZ[i], this->XYZ[i + 1], this->XYZ[i + 2] };
@@ -78,7 +75,7 @@ private:
 
   int turn(Id a, Id b, Id c, Id d) const
   {
-    return int(Kernel::Orientation_3()(this->at(a), this->at(b), this->at(c), this->at(d)));
+    return check::turn(this->at(a), this->at(b), this->at(c), this->at(d));
   }
 
   void checkCells()
@@ -138,9 +135,8 @@ private:
     for (const Id id : ids)
     {
       const bool extends = base.empty() ||
-        (base.size() == 1 && this->at(base[0]) != this->at(id)) ||
-        (base.size() == 2 &&
-          !Kernel::Collinear_3()(this->at(base[0]), this->at(base[1]), this->at(id)));
+        (base.size() == 1 && !(this->at(base[0]) == this->at(id))) ||
+        (base.size() == 2 && !areCollinear(this->at(base[0]), this->at(base[1]), this->at(id)));
       if (base.size() == 3 && this->turn(base[0], base[1], base[2], id) != 0)
       {
         return false;
@@ -212,8 +208,8 @@ private:
 
   void checkSphere(const Id* v, Id other)
   {
-    const int side = int(Kernel::Side_of_oriented_sphere_3()(
-      this->at(v[0]), this->at(v[1]), this->at(v[2]), this->at(v[3]), this->at(other)));
+    const int side =
+      inSphere(this->at(v[0]), this->at(v[1]), this->at(v[2]), this->at(v[3]), this->at(other));
     this->Report.BadSpheres += side > 0 ? 1 : 0;
     this->Report.Ties += side == 0 ? 1 : 0;
     if (side == 0 && this->TieRule && this->isRaisedInside(v, other))

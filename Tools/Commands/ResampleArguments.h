@@ -40,6 +40,9 @@ struct ResampleArguments
   std::string Memory = "1G"; ///< of the part of a partitioned mesh that is in memory at a time
 };
 
+/// Resamples a mesh without time steps, or one of them. Returns the exit code. Throws IOError.
+int runResample(const ResampleArguments& arguments);
+
 /// Whether the time steps of the input are resampled one by one, with runSeries().
 bool isSeriesRun(const ResampleArguments& arguments);
 

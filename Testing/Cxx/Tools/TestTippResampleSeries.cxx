@@ -138,6 +138,16 @@ TEST_F(TippResampleSeries, ListsImagesForParaView)
   EXPECT_NE(contentOf(this->Folder.path("maps.vti")).find("Name=\"depth\""), std::string::npos);
 }
 
+TEST_F(TippResampleSeries, ListsTheImageOfWhatDoesNotVary)
+{
+  const Outcome outcome = this->run({ "-o", "maps.pvd", "--step", "all", "--arrays", "depth" });
+  ASSERT_EQ(0, outcome.ExitCode) << outcome.Err;
+  const std::string list = contentOf(this->Folder.path("maps.pvd"));
+  EXPECT_NE(list.find("timestep=\"0\" file=\"maps.vti\""), std::string::npos) << list;
+  EXPECT_NE(contentOf(this->Folder.path("maps.vti")).find("Name=\"depth\""), std::string::npos);
+  EXPECT_FALSE(this->exists("maps_0000.vti"));
+}
+
 TEST_F(TippResampleSeries, DrawsTheWaterline)
 {
   const Words words = { "-o", "water.npy", "--step", "2:2", "--arrays", "level",
