@@ -10,6 +10,7 @@
 #include "Partitioning/PartitionMesh.h"
 #include "Points/ReadPoints.h"
 
+#include <filesystem>
 #include <string>
 
 namespace tipp
@@ -28,7 +29,11 @@ std::string readingOf(const std::string& path)
 [[noreturn]] void refuse(
   const std::string& path, const std::string& advice, const std::string& line)
 {
-  const InputFile readable(path); // a file that is not there is reported as such
+  if (!std::filesystem::is_regular_file(path))
+  {
+    throw IOError(path, "is not a file that can be read; check the name.");
+  }
+  const InputFile readable(path); // one without permission is reported as such
   throw IOError(path,
     "is a file that VTK reads, and this tipp was built without VTK; " + advice + ": python -c \"" +
       line + "\".");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Arrays/Decimal.h"
 
+#include "Arrays/ShortestText.h"
 #include "Predicates/ExactArithmetic.h"
 
 #include <algorithm>
@@ -46,10 +47,8 @@ std::optional<Decimal> decimalOf(double value)
   {
     return std::nullopt;
   }
-  std::array<char, 32> text;
-  const char* const end = std::to_chars(
-    text.data(), text.data() + text.size(), std::fabs(value), std::chars_format::scientific)
-                            .ptr;
+  NumberText text;
+  const char* const end = writeShortestScientific(text, std::fabs(value));
   Decimal decimal;
   bool isFraction = false;
   const char* at = text.data();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Files/TextFile.h"
 
+#include "Arrays/ShortestText.h"
 #include "Files/Formats.h"
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
@@ -625,8 +626,8 @@ bool FileLines::next(std::string_view& line)
 
 std::string shortText(double value)
 {
-  std::array<char, 32> text;
-  const char* const end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+  NumberText text;
+  const char* const end = writeShortest(text, value);
   return std::string(text.data(), std::size_t(end - text.data()));
 }
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Meshes/TextMeshes.h"
 
+#include "Arrays/ShortestText.h"
 #include "Files/IOError.h"
 #include "Files/TextFile.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 namespace tipp
@@ -13,9 +13,9 @@ namespace tipp
 
 void appendNumber(std::string& line, double value)
 {
-  char text[32];
+  NumberText text;
   line += ' ';
-  line.append(text, std::to_chars(text, text + sizeof text, value).ptr);
+  line.append(text.data(), writeShortest(text, value));
 }
 
 void appendNode(std::string& line, const PointTable& points, std::size_t node, double third)

@@ -4,7 +4,7 @@
 #include "Files/IOError.h"
 
 #include <algorithm>
-#include <charconv>
+#include <cstdio>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -34,9 +34,8 @@ bool isRoundedInteger(std::string_view field, double value)
     return false;
   }
   char digits[400];
-  const auto [end, error] =
-    std::to_chars(digits, digits + sizeof(digits), std::fabs(value), std::chars_format::fixed, 0);
-  return error != std::errc() || field != std::string_view(digits, std::size_t(end - digits));
+  std::snprintf(digits, sizeof(digits), "%.0f", std::fabs(value));
+  return field != digits;
 }
 
 std::string_view trimEnd(std::string_view line)

@@ -30,7 +30,8 @@ def make_includes(folder):
 def compile_source(source, top, scratch):
     """Returns the compiler's messages; empty if it accepts the source."""
     command = [sys.executable, "-m", "ziglang", "c++", "-target", "aarch64-macos", "-std=c++17", "-c", "-O0", "-Wall",
-               "-Wextra", "-Werror", "-DTIPP_WITHOUT_VTK", "-DTIPP_CHECK_WITHOUT_GMP", "-isystem", str(scratch), "-DFMT_HEADER_ONLY", "-DTIPP_VERSION=\"0\"",
+               "-Wextra", "-Werror", "-DTIPP_WITHOUT_VTK", "-DTIPP_CHECK_WITHOUT_GMP", "-isystem", str(scratch),
+               "-DFMT_HEADER_ONLY", "-DTIPP_VERSION=\"0\"",
                *(f"-I{top / module}" for module in (*MODULES, "Tools")),
                source, "-o", f"{scratch}/{source.stem}.o"]
     environment = {**os.environ, "ZIG_GLOBAL_CACHE_DIR": f"{scratch}/cache", "ZIG_LOCAL_CACHE_DIR": f"{scratch}/cache"}

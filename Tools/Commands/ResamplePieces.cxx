@@ -356,8 +356,10 @@ void resampleMesh(const ResampleArguments& arguments)
     fmt::print(stderr, "tipp: warning: {}: {}\n", arguments.Input, warning);
   }
   writeImage(arguments, image, before);
+  const bool isLinear = arguments.Method != "conservative";
   summarize(arguments,
-    { samples->hits(), image.Grid.samples(), samples->cells(), samples->seconds(), "OpenMP" });
+    { samples->hits(), image.Grid.samples(), samples->cells(), samples->seconds(),
+      isLinear ? "OpenMP" : "" });
 }
 
 } // namespace
