@@ -514,7 +514,8 @@ constexpr const char* footer =
         .14, .gr3 (ADCIRC, SCHISM: node numbers and boundaries of such an input are
         kept; depth is the column depth, else minus z); .2dm (SMS), .msh (Gmsh 2.2):
         z is the elevation, else minus depth; .node or .ele (Triangle: both files are
-        written, with all columns as attributes, z first); or .tipp: a partitioned
+        written, with all columns as attributes, z first); .nc (NetCDF by UGRID: all
+        columns); or .tipp: a partitioned
         mesh, made out of core. Points and triangles may then be larger than memory:
         .npy, .las, text and files of a GIS are read in blocks, other files as a whole.
 

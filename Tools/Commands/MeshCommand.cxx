@@ -879,7 +879,7 @@ constexpr const char* footer =
         .geojson; any VTK file: lines and polygons. Counter-clockwise polygons are
         the domain, clockwise ones are holes.
 OUTPUT  .14, .grd (ADCIRC), .gr3 (SCHISM), .2dm (SMS), .msh (Gmsh), .node with .ele and
-        .poly (Triangle), .vtu or .vtp.
+        .poly (Triangle), .nc (NetCDF by UGRID), .vtu or .vtp.
 
 The mesh is a constrained Delaunay triangulation that keeps every segment. No angle is
 below --min-angle, and no triangle larger than the limits allow: a size h allows the

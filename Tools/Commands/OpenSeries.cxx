@@ -6,6 +6,8 @@
 #include "Files/TextFile.h"
 #include "Flat/FlatMesh.h"
 #include "Flat/FlatSeries.h"
+#include "Partitioned/PartitionedMesh.h"
+#include "Partitioning/PiecesSeries.h"
 
 #include <fmt/format.h>
 
@@ -94,6 +96,12 @@ std::unique_ptr<MeshSeries> openSeries(const std::string& path, const SeriesOpti
         more == 0 ? "" : fmt::format("; so are {} more, which 'tipp info' lists", more));
     }
     return series;
+  }
+  if (isPartitionedMesh(path))
+  {
+    refuseIf(!options.Values.empty(), "--values", "is not for a partitioned mesh");
+    refuseIf(options.Wrap, "--wrap", "is not for a partitioned mesh; give it to 'tipp flatten'");
+    return openPiecesSeries(path);
   }
   if (!isFlatMesh(path))
   {

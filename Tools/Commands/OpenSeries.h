@@ -12,7 +12,7 @@
 namespace tipp
 {
 
-/// Opens the output of a model, or a flat mesh of triangles. Throws IOError.
+/// Opens the output of a model, or a flat or partitioned mesh of triangles. Throws IOError.
 std::unique_ptr<MeshSeries> openSeries(const std::string& path, const SeriesOptions& options);
 
 /// Whether a text is one number of a time step, or empty.

@@ -76,8 +76,8 @@ struct RegionArguments
 void addQueryMeshOptions(CLI::App& command, QueryMeshArguments& arguments)
 {
   addChecked(command, "--step", arguments.Step, checkSteps,
-    "The time step of arrays that vary in time, counted from 0; for stations of the output of a "
-    "model also all (the default) or FIRST:LAST:STRIDE with LAST included");
+    "The time step of arrays that vary in time, counted from 0; for stations also all, the "
+    "default for the output of a model, or FIRST:LAST:STRIDE with LAST included");
   addChecked(command, "--memory", arguments.Memory, checkMemorySize,
     "The memory limit for pieces of a partitioned mesh");
   addThreadsOption(command, arguments.Threads);
@@ -363,6 +363,7 @@ Examples:
   mpirun -np 4 tipp query stations.npy coast.tipp -o levels.npy --memory 512M
   tipp query stations.csv coast.tipp -o nearest.csv --closest
   tipp query gauges.csv fort.63.nc -o series.csv --arrays zeta
+  tipp query gauges.csv surge.tipp -o series.csv --step all
   tipp query coast.tipp --zones districts.gpkg --zone-names name -o flooded.csv --level 2.5
   tipp query coast.tipp --ids cells --bounds 0 50 20 80 -o cells.csv
   tipp query springs.csv terrain.tipp -o rivers.vtp --descend elevation

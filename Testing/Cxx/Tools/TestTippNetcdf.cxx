@@ -102,6 +102,31 @@ TEST_F(TippUgrid, HoldsAPartitionedMeshInItsFirstOrder)
   }
 }
 
+TEST_F(TippUgrid, PiecesHaveTheSameMapsAndSeriesThroughTime)
+{
+  ASSERT_EQ(0,
+    runTipp(this->Folder, { "partition", "surge", "-o", "surge.tipp", "--tiling", "grid:2x2" })
+      .ExitCode);
+  this->Folder.file("stations.csv", "x,y\n0.25,0.5\n0.5,0.125\n7,7\n");
+  std::vector<std::string> maps;
+  std::vector<std::string> series;
+  for (const char* mesh : { "surge", "surge.tipp" })
+  {
+    Outcome outcome = runTipp(this->Folder,
+      { "resample", mesh, "-o", "level.npy", "--step", "all", "--arrays", "level", "--resolution",
+        "0.25" });
+    ASSERT_EQ(0, outcome.ExitCode) << outcome.Err;
+    maps.push_back(contentOf(this->Folder.path("level.npy")));
+    outcome = runTipp(this->Folder,
+      { "query", "stations.csv", mesh, "-o", "series.csv", "--step", "all", "--arrays", "level" });
+    ASSERT_EQ(0, outcome.ExitCode) << outcome.Err;
+    series.push_back(contentOf(this->Folder.path("series.csv")));
+  }
+  EXPECT_EQ(maps[0], maps[1]);
+  EXPECT_EQ(series[0], series[1]);
+  EXPECT_NE(std::string::npos, series[0].find("60,1,0.5,0.125,10.5")) << series[0];
+}
+
 TEST_F(TippUgrid, HoldsATriangulation)
 {
   this->Folder.file("points.csv", "x,y,z,rain\n0,0,1,5\n4,0,2,6\n0,3,3,7\n4,3.5,4,8\n");

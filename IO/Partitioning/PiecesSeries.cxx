@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Partitioning/PiecesSeries.h"
+
+#include "Files/IOError.h"
+#include "Files/RawValues.h"
+#include "Partitioned/PartitionedMesh.h"
+#include "Partitioning/FlattenPieces.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace tipp
+{
+namespace
+{
+
+class PiecesSeries : public MeshSeries
+{
+public:
+  explicit PiecesSeries(const std::string& path)
+    : Mesh(openPartitionedMesh(path))
+  {
+    if (this->Mesh.CellSize != 3)
+    {
+      throw IOError(
+        path, "has tetrahedra, and time steps are resampled in the plane; give triangles.");
+    }
+    this->Content = flattenPieces(this->Mesh);
+    this->Path = path;
+    this->Kind = "partitioned mesh";
+    this->Nodes = this->Mesh.Points;
+    this->Times = this->Mesh.Times;
+    for (const FlatArray& array : this->Content.PointData)
+    {
+      this->add(array, false);
+    }
+    for (const FlatArray& array : this->Content.CellData)
+    {
+      this->add(array, true);
+    }
+    if (this->isFree("elevation"))
+    {
+      this->Sources.push_back({ &this->Content.Points, 2 });
+      this->Variables.push_back({ "elevation", "", "", this->Content.Points.Type, false, false });
+    }
+  }
+
+  SeriesMesh readMesh() override
+  {
+    SeriesMesh mesh;
+    mesh.Triangles = this->Content.Cells;
+    const FlatArray& points = this->Content.Points;
+    const std::vector<double> x = componentOf(points, points.Values, 0);
+    const std::vector<double> y = componentOf(points, points.Values, 1);
+    mesh.XY.resize(2 * x.size());
+    for (std::size_t i = 0; i < x.size(); ++i)
+    {
+      mesh.XY[2 * i] = x[i];
+      mesh.XY[2 * i + 1] = y[i];
+    }
+    return mesh;
+  }
+
+  void read(std::size_t variable, std::size_t step, std::vector<double>& values) override
+  {
+    const auto [array, component] = this->Sources.at(variable);
+    const bool varies = this->Variables[variable].Varies;
+    values = componentOf(*array,
+      array->StepValues ? array->StepValues(std::int64_t(varies ? step : 0)) : array->Values,
+      component);
+  }
+
+private:
+  /// Where a variable is.
+  struct Source
+  {
+    const FlatArray* Array;
+    int Component;
+  };
+
+  static std::vector<double> componentOf(const FlatArray& array, const void* from, int component)
+  {
+    std::vector<double> values(std::size_t(array.Tuples));
+    withScalar(array.Type,
+      [&](auto type)
+      {
+        using T = decltype(type);
+        const char* at = static_cast<const char*>(from) + std::size_t(component) * sizeof(T);
+        for (double& value : values)
+        {
+          value = double(valueAt<T>(at));
+          at += std::size_t(array.Components) * sizeof(T);
+        }
+      });
+    return values;
+  }
+
+  bool isFree(const std::string& name) const
+  {
+    return std::none_of(this->Variables.begin(), this->Variables.end(),
+      [&name](const SeriesVariable& known) { return known.Name == name; });
+  }
+
+  void add(const FlatArray& array, bool onCells)
+  {
+    for (int i = 0; i < array.Components; ++i)
+    {
+      std::string name = array.Components == 1 ? array.Name : array.Name + "_" + std::to_string(i);
+      name += this->isFree(name) ? "" : "_cells";
+      this->Variables.push_back({ name, "", "", array.Type, onCells, array.Steps > 0 });
+      this->Sources.push_back({ &array, i });
+    }
+  }
+
+  const PartitionedMesh Mesh;
+  FlatContent Content;         ///< refers to Mesh
+  std::vector<Source> Sources; ///< by variable
+};
+
+} // namespace
+
+std::unique_ptr<MeshSeries> openPiecesSeries(const std::string& path)
+{
+  return std::make_unique<PiecesSeries>(path);
+}
+
+} // namespace tipp
