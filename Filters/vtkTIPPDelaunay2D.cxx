@@ -55,6 +55,10 @@ void checkProperties(vtkTIPPDelaunay2D* filter)
 constexpr const char* NoBounds =
   "No BoundingTriangulation: only the x-y plane has one, without a transform.";
 constexpr const char* NoNeighbors = "No NeighborIds: the output has lines, too.";
+constexpr const char* NoNeighborsOfAlpha =
+  "No NeighborIds: with Alpha not all triangles are output.";
+constexpr const char* NoMarksOfAlpha =
+  "No marks of constraints: with Alpha not all triangles are output.";
 
 void requireNoTolerance(double tolerance)
 {
@@ -322,12 +326,11 @@ void vtkTIPPDelaunay2D::AddArrays(const tipp::ConstrainedTriangulation& result, 
   }
   else if (this->GenerateNeighborIds)
   {
-    vtkWarningMacro(<< (hasLines ? NoNeighbors
-                                 : "No NeighborIds: with Alpha not all triangles are output."));
+    vtkWarningMacro(<< (hasLines ? NoNeighbors : NoNeighborsOfAlpha));
   }
   if (hasSource && this->ConstraintMarks != NO_MARKS && this->Alpha != 0)
   {
-    vtkWarningMacro("No marks of constraints: with Alpha not all triangles are output.");
+    vtkWarningMacro(<< NoMarksOfAlpha);
   }
   else if (hasSource && this->ConstraintMarks == EDGE_FLAGS)
   {
@@ -422,14 +425,21 @@ struct RankOutput
   bool AddsNeighbors; ///< all: with NeighborIds
   bool FindsLines;    ///< all: a rank marks constraints by lines
   int Marks;          ///< ConstraintMarks of this rank
+  tipp::AlphaOptions Alpha;
 };
 
 void fillRankOutput(tipp::Communicator& ranks, const tipp::DistributedTriangulation& mine,
   const RankInput& input, const RankOutput& how, vtkPolyData* output)
 {
-  const tipp::GhostTriangles ghosts = how.FetchesGhosts || how.AddsNeighbors
+  const bool hasAlpha = how.Alpha.Alpha != 0;
+  const tipp::GhostTriangles ghosts = how.FetchesGhosts || how.AddsNeighbors || hasAlpha
     ? tipp::fetchGhosts(ranks, mine)
     : tipp::GhostTriangles();
+  if (hasAlpha)
+  {
+    tipp::fillAlphaOutput(ranks, mine, input.Rows, ghosts, how.Alpha, output);
+    return;
+  }
   const tipp::RankSource* const source = input.Source;
   tipp::ConstraintLines lines;
   if (how.FindsLines)
@@ -463,15 +473,14 @@ void vtkTIPPDelaunay2D::ExecuteOnRanks(
   const auto run = [&]()
   {
     checkProperties(this);
-    tipp::requireUnused({ { "Alpha", this->Alpha != 0 } });
     tipp::Monitor monitor(this);
     tipp::DistributedOptions options = optionsFor(this);
     options.Progress = [&monitor](double fraction) { return monitor(fraction); };
     tipp::checkPoints(given, "the input");
     // All ranks must take the same collective steps, even if their properties differ, so those of
     // the first rank count.
-    const auto [tolerance, longest, gathers, addsBounds, findsNeighbors, fitsPlane] =
-      ranks.broadcast(std::array<double, 6>{ this->Tolerance, this->MaximumEdgeLength,
+    const auto [alpha, tolerance, longest, gathers, addsBounds, findsNeighbors, fitsPlane] =
+      ranks.broadcast(std::array<double, 7>{ this->Alpha, this->Tolerance, this->MaximumEdgeLength,
         double(this->GatherOnFirstRank), double(this->BoundingTriangulation),
         double(this->GenerateNeighborIds),
         double(this->ProjectionPlaneMode == VTK_BEST_FITTING_PLANE) });
@@ -506,13 +515,19 @@ void vtkTIPPDelaunay2D::ExecuteOnRanks(
     {
       mine = tipp::gatherOnFirst(ranks, std::move(mine));
     }
-    const bool hasLines = shared && wishes[1] > 0;
-    const bool addsNeighbors = findsNeighbors != 0 && !hasLines;
+    const bool hasLines = shared && wishes[1] > 0 && alpha == 0;
+    const bool addsNeighbors = findsNeighbors != 0 && !hasLines && alpha == 0;
     fillRankOutput(ranks, mine, rankInput,
-      { wantsGhosts, wishes[0] > 0, addsNeighbors, hasLines, this->ConstraintMarks }, output);
-    if (findsNeighbors != 0 && hasLines)
+      { wantsGhosts, wishes[0] > 0, addsNeighbors, hasLines, this->ConstraintMarks,
+        { alpha, false, this->AlphaTris != 0, this->AlphaLines != 0, this->AlphaVerts != 0 } },
+      output);
+    if (findsNeighbors != 0 && !addsNeighbors)
     {
-      warnings.emplace_back(NoNeighbors);
+      warnings.emplace_back(hasLines ? NoNeighbors : NoNeighborsOfAlpha);
+    }
+    if (shared && this->ConstraintMarks != NO_MARKS && alpha != 0)
+    {
+      warnings.emplace_back(NoMarksOfAlpha);
     }
     if (this->GenerateRepresentativeIds)
     {

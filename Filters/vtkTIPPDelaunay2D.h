@@ -57,10 +57,11 @@
  * and "RankTriangles"; "MasterSeconds", "LargestMasterMesh"; "MessageKind", "MessageCount" and
  * "MessageBytes". If one rank fails, all fail and the first rank reports the error. That includes
  * failures upstream, unless the application sets its own default executive
- * (vtkAlgorithm::SetDefaultExecutivePrototype), as ParaView does. Alpha works on a single rank
- * only. The Tolerance, MaximumEdgeLength, BoundingTriangulation, GenerateNeighborIds and best
- * fitting plane of the first rank count for all; points within the Tolerance are merged by
- * ascending global id, and "NeighborIds" are those of "GlobalCellIds".
+ * (vtkAlgorithm::SetDefaultExecutivePrototype), as ParaView does. The Alpha, Tolerance,
+ * MaximumEdgeLength, BoundingTriangulation, GenerateNeighborIds and best fitting plane of the first
+ * rank count for all; points within the Tolerance are merged by ascending global id, and
+ * "NeighborIds" are those of "GlobalCellIds". With Alpha each cell of the alpha shape is on one
+ * rank, and there are no ghost cells.
  *
  * An aborted or failed run leaves both outputs empty. A failure is reported as an error.
  *

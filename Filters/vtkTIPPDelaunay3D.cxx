@@ -29,6 +29,7 @@
 
 #include <algorithm>
 #include <array>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -36,6 +37,8 @@ vtkStandardNewMacro(vtkTIPPDelaunay3D);
 
 namespace
 {
+
+constexpr const char* NoNeighbors = "No NeighborIds: with Alpha not all tetrahedra are output.";
 
 /// Returns the corners of an octahedron around a box.
 std::vector<tipp::Point3> octahedron(const tipp::Box3& bounds, double offset)
@@ -151,7 +154,7 @@ void vtkTIPPDelaunay3D::Execute(vtkPointSet* input, vtkInformationVector* output
   }
   else if (this->GenerateNeighborIds)
   {
-    vtkWarningMacro("No NeighborIds: with Alpha not all tetrahedra are output.");
+    vtkWarningMacro(<< NoNeighbors);
   }
   const auto tetrahedra = std::int64_t(mesh.cellCount());
   mesh.Dimension == 2 ? this->SetCells(triangles.Ids32, 3, mesh, output)
@@ -196,25 +199,13 @@ void vtkTIPPDelaunay3D::SetCells(tipp::Buffer<int>& ids, int corners,
   const auto pointAt = [points = output->GetPoints()](tipp::PointId id, double* p)
   { points->GetPoint(vtkIdType(id), p); };
   std::vector<char> leftOut = tipp::findLeftOut(mesh, output->GetNumberOfPoints());
-  const auto shape = corners == 4
-    ? tipp::alphaShape<4>(ids, pointAt, this->Alpha, std::move(leftOut))
-    : tipp::alphaShape<3>(ids, pointAt, this->Alpha, std::move(leftOut));
-  const std::size_t count = shape.Tetrahedra.size() / 4 + shape.Triangles.size() / 3 +
-    shape.Lines.size() / 2 + shape.Vertices.size();
-  output->Allocate(vtkIdType(count));
-  const auto add = [output](bool isWanted, const tipp::Buffer<int>& cells, int type, int size)
-  {
-    for (const int* cell = cells.begin(); isWanted && cell != cells.end(); cell += size)
-    {
-      std::array<vtkIdType, 4> points;
-      std::copy_n(cell, size, points.begin());
-      output->InsertNextCell(type, size, points.data());
-    }
-  };
-  add(this->AlphaTets, shape.Tetrahedra, VTK_TETRA, 4);
-  add(this->AlphaTris, shape.Triangles, VTK_TRIANGLE, 3);
-  add(this->AlphaLines, shape.Lines, VTK_LINE, 2);
-  add(this->AlphaVerts, shape.Vertices, VTK_VERTEX, 1);
+  auto shape = corners == 4 ? tipp::alphaShape<4>(ids, pointAt, this->Alpha, std::move(leftOut))
+                            : tipp::alphaShape<3>(ids, pointAt, this->Alpha, std::move(leftOut));
+  shape.Tetrahedra.truncate(this->AlphaTets ? shape.Tetrahedra.size() : 0);
+  shape.Triangles.truncate(this->AlphaTris ? shape.Triangles.size() : 0);
+  shape.Lines.truncate(this->AlphaLines ? shape.Lines.size() : 0);
+  shape.Vertices.truncate(this->AlphaVerts ? shape.Vertices.size() : 0);
+  tipp::setAlphaCells(std::move(shape), output);
 }
 
 void vtkTIPPDelaunay3D::ExecuteOnRanks(vtkPointSet* given, vtkInformationVector* outputs)
@@ -223,10 +214,10 @@ void vtkTIPPDelaunay3D::ExecuteOnRanks(vtkPointSet* given, vtkInformationVector*
   const bool wantsGhosts = tipp::wantsGhosts(outputs);
   tipp::Communicator ranks(this->Controller);
   tipp::DistributedTetrahedralization mine;
+  bool noNeighbors = false;
   const auto run = [&]()
   {
     checkProperties(this);
-    tipp::requireUnused({ { "Alpha", this->Alpha != 0 } });
     tipp::Monitor monitor(this);
     tipp::TetrahedralizationOptions options;
     options.Partitions = this->NumberOfPartitions;
@@ -235,8 +226,8 @@ void vtkTIPPDelaunay3D::ExecuteOnRanks(vtkPointSet* given, vtkInformationVector*
     tipp::checkPoints(given, "the input");
     // All ranks must take the same collective steps, even if their properties differ, so those of
     // the first rank count.
-    const auto [tolerance, gathers, addsBounds, findsNeighbors] =
-      ranks.broadcast(std::array<double, 4>{ this->Tolerance, double(this->GatherOnFirstRank),
+    const auto [alpha, tolerance, gathers, addsBounds, findsNeighbors] = ranks.broadcast(
+      std::array<double, 5>{ this->Alpha, this->Tolerance, double(this->GatherOnFirstRank),
         double(this->BoundingTriangulation), double(this->GenerateNeighborIds) });
     vtkSmartPointer<vtkPointSet> input = given;
     if (addsBounds != 0)
@@ -261,11 +252,23 @@ void vtkTIPPDelaunay3D::ExecuteOnRanks(vtkPointSet* given, vtkInformationVector*
     {
       mine = tipp::gatherOnFirst(ranks, std::move(mine), options.Threads);
     }
-    const tipp::GhostTetrahedra ghosts =
-      findsNeighbors != 0 || tipp::isTrueOnAny(ranks, wantsGhosts) ? tipp::fetchGhosts(ranks, mine)
-                                                                   : tipp::GhostTetrahedra();
-    tipp::fillOutput(mine, ranks.rank(), rows, wantsGhosts ? &ghosts : nullptr, output);
-    if (findsNeighbors != 0)
+    const bool fetchesGhosts = tipp::isTrueOnAny(ranks, wantsGhosts);
+    const tipp::GhostTetrahedra ghosts = alpha != 0 || findsNeighbors != 0 || fetchesGhosts
+      ? tipp::fetchGhosts(ranks, mine)
+      : tipp::GhostTetrahedra();
+    if (alpha != 0)
+    {
+      tipp::fillAlphaOutput(ranks, mine, rows, ghosts,
+        { alpha, this->AlphaTets != 0, this->AlphaTris != 0, this->AlphaLines != 0,
+          this->AlphaVerts != 0 },
+        output);
+      noNeighbors = findsNeighbors != 0;
+    }
+    else
+    {
+      tipp::fillOutput(mine, ranks.rank(), rows, wantsGhosts ? &ghosts : nullptr, output);
+    }
+    if (alpha == 0 && findsNeighbors != 0)
     {
       tipp::addNeighborIds(tipp::neighborIds(ranks, mine, ghosts), int(mine.cellSize()), output);
     }
@@ -281,6 +284,8 @@ void vtkTIPPDelaunay3D::ExecuteOnRanks(vtkPointSet* given, vtkInformationVector*
   if (ranks.isFirst())
   {
     tipp::warn(this, tipp::warningsOf(mine));
+    tipp::warn(
+      this, noNeighbors ? std::vector<std::string>{ NoNeighbors } : std::vector<std::string>());
   }
 }
 

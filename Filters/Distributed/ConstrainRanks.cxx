@@ -60,6 +60,7 @@ public:
       this->Positions = this->Mine.positions();
       this->Corners.truncate(
         3 * cutTriangles(this->view(), this->Segments, this->Corners.data(), this->triangles()));
+      addCells(this->Ranks, std::vector<IdTriangle>(), this->Corners, this->Mine);
     }
     numberCells(this->Ranks, this->triangles(), this->Mine);
   }

@@ -83,8 +83,9 @@ void forEachFace(Cell<Id, CellCorners> cell, const Visit& visit)
 }
 
 template <typename Id, std::size_t Corners>
-bool isSmall(const Cell<Id, Corners>& cell, const PointAt& pointAt, double alpha)
+bool isSmall(Cell<Id, Corners> cell, const PointAt& pointAt, double alpha)
 {
+  std::sort(cell.begin(), cell.end()); // the order affects rounding
   std::array<Point3, Corners> points;
   for (std::size_t i = 0; i < Corners; ++i)
   {

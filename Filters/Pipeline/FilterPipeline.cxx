@@ -87,18 +87,6 @@ void requireFinite(std::initializer_list<std::pair<const char*, double>> propert
   }
 }
 
-void requireUnused(std::initializer_list<std::pair<const char*, bool>> properties)
-{
-  for (const auto& [name, isUsed] : properties)
-  {
-    if (isUsed)
-    {
-      throw std::invalid_argument(
-        std::string(name) + " needs a single rank: set the controller to null on one rank.");
-    }
-  }
-}
-
 void warn(vtkAlgorithm* filter, const std::vector<std::string>& warnings)
 {
   for (const std::string& warning : warnings)

@@ -65,10 +65,6 @@ private:
 /// setters' bounds do not exclude NaN.
 void requireFinite(std::initializer_list<std::pair<const char*, double>> properties);
 
-/// Throws std::invalid_argument if one of these properties, which work on a single rank only, is in
-/// use. Each is given by name and whether it is in use.
-void requireUnused(std::initializer_list<std::pair<const char*, bool>> properties);
-
 /// Issues warnings of a filter.
 void warn(vtkAlgorithm* filter, const std::vector<std::string>& warnings);
 

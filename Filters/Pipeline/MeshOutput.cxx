@@ -21,7 +21,9 @@
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
+#include <limits>
 #include <numeric>
 #include <stdexcept>
 #include <utility>
@@ -128,7 +130,10 @@ class OutputPart
 {
 public:
   /// The cells have `size` corners each. `ghosts` may be null. Both meshes must outlive the object.
-  OutputPart(const Mesh& mine, std::size_t size, std::size_t cells, int rank, const Ghosts* ghosts)
+  /// `added`: by owned point: not 0 if it belongs to the part even if no cell uses it; may be
+  /// empty.
+  OutputPart(const Mesh& mine, std::size_t size, std::size_t cells, int rank, const Ghosts* ghosts,
+    const std::vector<char>& added = {})
     : Mine(mine)
     , CellSize(size)
     , Cells(cells)
@@ -147,6 +152,10 @@ public:
           this->Indices[std::size_t(index)] = 0;
         }
       }
+    }
+    for (std::size_t i = 0; i < added.size(); ++i)
+    {
+      this->Indices[i] = added[i] != 0 ? 0 : this->Indices[i];
     }
     for (std::int64_t& index : this->Indices)
     {
@@ -201,10 +210,15 @@ public:
     return corners;
   }
 
-  /// Sets the points of `output`, their data, global ids and, with ghosts, vtkGhostType.
-  void fillPoints(const PointRows& rows, vtkPointSet* output) const
+  /// Sets the points of `output`, their data, global ids and, with ghosts, vtkGhostType. `places`:
+  /// by point of the part: its index in the output; -1: it is left out. Empty: all are output.
+  void fillPoints(
+    const PointRows& rows, vtkPointSet* output, const std::vector<std::int64_t>& places = {}) const
   {
-    const vtkIdType count = vtkIdType(this->count());
+    const bool areAll = places.empty();
+    const vtkIdType count = areAll ? vtkIdType(this->count())
+                                   : vtkIdType(std::count_if(places.begin(), places.end(),
+                                       [](std::int64_t place) { return place >= 0; }));
     vtkPointData* const data = output->GetPointData();
     vtkNew<vtkPoints> points;
     points->SetDataType(rows.areDoubles() ? VTK_DOUBLE : VTK_FLOAT);
@@ -226,8 +240,13 @@ public:
       values.push_back(static_cast<char*>(array->GetVoidPointer(0)));
     }
     this->forEachPoint(
-      [&](std::int64_t to, const auto& tuples, std::size_t at, bool isOwn)
+      [&](std::int64_t index, const auto& tuples, std::size_t at, bool isOwn)
       {
+        const std::int64_t to = areAll ? index : places[std::size_t(index)];
+        if (to < 0)
+        {
+          return;
+        }
         const char* row = tuples.Rows.data() + at * this->Mine.RowSize;
         double position[3];
         std::memcpy(position, row, sizeof(position));
@@ -244,10 +263,70 @@ public:
       });
     output->SetPoints(points);
     data->SetGlobalIds(ids);
-    if (this->Others)
+    if (this->Others && areAll)
     {
       data->AddArray(ghost);
     }
+  }
+
+  /// Returns the share of the alpha shape of all ranks' cells that this rank outputs, by the part's
+  /// points. `isAdded`: see the constructor. The part must have ghosts.
+  template <std::size_t Corners>
+  AlphaShape<std::int32_t> alphaShare(double alpha, const std::vector<char>& isAdded) const
+  {
+    // Points are in the order of global ids, as in memory: it affects rounding.
+    const auto count = std::size_t(this->count());
+    std::vector<PointId> ids(count);
+    std::vector<Point3> positions(count);
+    std::vector<char> isMine(count, 0);
+    this->forEachPoint(
+      [&](std::int64_t index, const auto& tuples, std::size_t at, bool isOwn)
+      {
+        const auto i = std::size_t(index);
+        ids[i] = tuples.GlobalIds[at];
+        std::memcpy(&positions[i], tuples.Rows.data() + at * this->Mine.RowSize, sizeof(Point3));
+        isMine[i] = isOwn && isAdded[at] != 0;
+      });
+    std::vector<std::int32_t> order(count);
+    std::iota(order.begin(), order.end(), 0);
+    std::sort(order.begin(), order.end(),
+      [&ids](std::int32_t a, std::int32_t b)
+      { return std::make_pair(ids[std::size_t(a)], a) < std::make_pair(ids[std::size_t(b)], b); });
+    std::vector<std::int32_t> number(count); // of a point in this order
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      number[std::size_t(order[i])] = std::int32_t(i);
+    }
+    Buffer<std::int32_t> cells = this->corners<std::int32_t>();
+    this->findResponsible(cells, isMine);
+    std::transform(cells.begin(), cells.end(), cells.begin(),
+      [&number](std::int32_t point) { return number[std::size_t(point)]; });
+    std::vector<char> covered(count);
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      covered[i] = isMine[std::size_t(order[i])] == 0;
+    }
+    const auto pointAt = [&](PointId point, double* p)
+    { std::memcpy(p, &positions[std::size_t(order[std::size_t(point)])], sizeof(Point3)); };
+    AlphaShape<std::int32_t> shape = alphaShape<Corners>(cells, pointAt, alpha, covered);
+    const auto keepMine = [&](Buffer<std::int32_t>& of, std::size_t size)
+    {
+      std::int32_t* to = of.data();
+      for (const std::int32_t* cell = of.begin(); cell != of.end(); cell += size)
+      {
+        if (covered[std::size_t(*std::min_element(cell, cell + size))] == 0)
+        {
+          to = std::transform(cell, cell + size, to,
+            [&order](std::int32_t point) { return order[std::size_t(point)]; });
+        }
+      }
+      of.truncate(std::size_t(to - of.data()));
+    };
+    keepMine(shape.Tetrahedra, 4);
+    keepMine(shape.Triangles, 3);
+    keepMine(shape.Lines, 2);
+    keepMine(shape.Vertices, 1);
+    return shape;
   }
 
   /// Sets the global ids of the cells of `output` and, with ghosts, vtkGhostType. The first
@@ -278,6 +357,28 @@ public:
   }
 
 private:
+  /// Sets isMine[p] for the points p of cells, of which this rank has the one with the lowest
+  /// number. It knows all cells at such a point. `cells`: by points of the part.
+  void findResponsible(const Buffer<std::int32_t>& cells, std::vector<char>& isMine) const
+  {
+    constexpr std::int64_t none = std::numeric_limits<std::int64_t>::max();
+    std::vector<std::int64_t> lowest(isMine.size(), none);
+    for (std::size_t corner = 0; corner < cells.size(); ++corner)
+    {
+      const std::size_t cell = corner / this->CellSize;
+      std::int64_t& of = lowest[std::size_t(cells[corner])];
+      of = std::min(of,
+        cell < this->Cells ? this->Mine.FirstCell + std::int64_t(cell)
+                           : this->Others->Numbers[cell - this->Cells]);
+    }
+    const std::int64_t end = this->Mine.FirstCell + std::int64_t(this->Cells);
+    for (std::size_t p = 0; p < isMine.size(); ++p)
+    {
+      const bool isFirst = this->Mine.FirstCell <= lowest[p] && lowest[p] < end;
+      isMine[p] = isFirst ? 1 : isMine[p];
+    }
+  }
+
   static std::ptrdiff_t rankOf(const std::vector<std::int64_t>& ids, std::int64_t id)
   {
     return std::lower_bound(ids.begin(), ids.end(), id) - ids.begin();
@@ -311,6 +412,14 @@ private:
   std::vector<std::int64_t> Indices; ///< by local index: the index in the part, or -1
   std::int64_t Count = 0;
 };
+
+void requireShortIndices(std::int64_t points)
+{
+  if (points > std::numeric_limits<std::int32_t>::max())
+  {
+    throw std::length_error("a piece has more than 2,147,483,647 points; use more ranks.");
+  }
+}
 
 using TriangleOutputPart = OutputPart<DistributedTriangulation, GhostTriangles>;
 
@@ -380,14 +489,137 @@ void fillOutput(const DistributedTetrahedralization& mine, int rank, const Point
   const std::size_t size = mine.cellSize();
   const OutputPart<DistributedTetrahedralization, GhostTetrahedra> part(
     mine, size, mine.cellCount(), rank, ghosts);
-  if (part.count() > std::numeric_limits<std::int32_t>::max())
-  {
-    throw std::length_error("a piece has more than 2,147,483,647 points; use more ranks.");
-  }
+  requireShortIndices(part.count());
   part.fillPoints(rows, output);
   output->SetCells(
     size == 3 ? VTK_TRIANGLE : VTK_TETRA, takeCells(part.corners<std::int32_t>(), int(size)));
   part.addCellIds(0, 0, output);
+}
+
+namespace
+{
+
+/// Returns for each owned point whether it is in no cell of any rank, and no duplicate. Collective.
+template <typename Mesh>
+std::vector<char> findIsolated(Communicator& ranks, const Mesh& mine)
+{
+  std::vector<char> isIsolated(mine.Owned.size(), 1);
+  const auto setUsed = [&isIsolated](std::int64_t index)
+  {
+    if (std::size_t(index) < isIsolated.size())
+    {
+      isIsolated[std::size_t(index)] = 0;
+    }
+  };
+  mine.forEachCorner(setUsed);
+  const std::int64_t first = mine.FirstIds[std::size_t(ranks.rank())];
+  for (const std::vector<std::int64_t>& ids : findUsedByOthers(ranks, mine))
+  {
+    std::for_each(ids.begin(), ids.end(), [&](std::int64_t id) { setUsed(id - first); });
+  }
+  for (std::size_t i = 0; i < isIsolated.size(); ++i)
+  {
+    const auto found = std::lower_bound(
+      mine.Duplicates.begin(), mine.Duplicates.end(), Duplicate{ mine.Owned.GlobalIds[i], 0 });
+    const bool isDuplicate = found != mine.Duplicates.end() &&
+      found->Point == mine.Owned.GlobalIds[i] && found->Representative != found->Point;
+    isIsolated[i] = isDuplicate ? 0 : isIsolated[i];
+  }
+  return isIsolated;
+}
+
+/// Sets the points of the output, and returns the cells of the alpha shape that this rank outputs.
+/// Collective.
+template <typename Mesh, typename Ghosts>
+AlphaShape<std::int32_t> fillAlphaPoints(Communicator& ranks, const Mesh& mine, std::size_t size,
+  std::size_t cells, const PointRows& rows, const Ghosts& ghosts, const AlphaOptions& options,
+  vtkPointSet* output)
+{
+  const std::vector<char> isIsolated = findIsolated(ranks, mine);
+  const OutputPart<Mesh, Ghosts> part(mine, size, cells, ranks.rank(), &ghosts, isIsolated);
+  requireShortIndices(part.count());
+  AlphaShape<std::int32_t> shape = size == 3
+    ? part.template alphaShare<3>(options.Alpha, isIsolated)
+    : part.template alphaShare<4>(options.Alpha, isIsolated);
+  std::vector<std::int64_t> places(std::size_t(part.count()), -1);
+  for (const auto& [list, isWanted] : { std::make_pair(&shape.Tetrahedra, options.Tetrahedra),
+         std::make_pair(&shape.Triangles, options.Triangles),
+         std::make_pair(&shape.Lines, options.Lines),
+         std::make_pair(&shape.Vertices, options.Vertices) })
+  {
+    list->truncate(isWanted ? list->size() : 0);
+    std::for_each(list->begin(), list->end(),
+      [&places](std::int32_t point) { places[std::size_t(point)] = 0; });
+  }
+  std::int64_t used = 0;
+  for (std::int64_t& place : places)
+  {
+    place = place < 0 ? -1 : used++;
+  }
+  for (Buffer<std::int32_t>* const list :
+    { &shape.Tetrahedra, &shape.Triangles, &shape.Lines, &shape.Vertices })
+  {
+    std::transform(list->begin(), list->end(), list->begin(),
+      [&places](std::int32_t point) { return std::int32_t(places[std::size_t(point)]); });
+  }
+  part.fillPoints(rows, output, places);
+  return shape;
+}
+
+/// Numbers the cells of all ranks' outputs. Collective.
+void numberCells(Communicator& ranks, vtkPointSet* output)
+{
+  const vtkIdType count = output->GetNumberOfCells();
+  vtkNew<vtkIdTypeArray> ids;
+  ids->SetName("GlobalCellIds");
+  ids->SetNumberOfValues(count);
+  const std::int64_t first = firstIndices(ranks, count)[std::size_t(ranks.rank())];
+  std::iota(ids->GetPointer(0), ids->GetPointer(0) + count, vtkIdType(first));
+  output->GetCellData()->SetGlobalIds(ids);
+}
+
+} // namespace
+
+void setAlphaCells(AlphaShape<std::int32_t>&& shape, vtkUnstructuredGrid* output)
+{
+  const std::size_t count = shape.Tetrahedra.size() / 4 + shape.Triangles.size() / 3 +
+    shape.Lines.size() / 2 + shape.Vertices.size();
+  output->Allocate(vtkIdType(count));
+  const auto add = [output](const Buffer<std::int32_t>& cells, int type, int size)
+  {
+    for (const std::int32_t* cell = cells.begin(); cell != cells.end(); cell += size)
+    {
+      std::array<vtkIdType, 4> points;
+      std::copy_n(cell, size, points.begin());
+      output->InsertNextCell(type, size, points.data());
+    }
+  };
+  add(shape.Tetrahedra, VTK_TETRA, 4);
+  add(shape.Triangles, VTK_TRIANGLE, 3);
+  add(shape.Lines, VTK_LINE, 2);
+  add(shape.Vertices, VTK_VERTEX, 1);
+}
+
+void fillAlphaOutput(Communicator& ranks, const DistributedTriangulation& mine,
+  const PointRows& rows, const GhostTriangles& ghosts, const AlphaOptions& options,
+  vtkPolyData* output)
+{
+  AlphaShape<std::int32_t> shape =
+    fillAlphaPoints(ranks, mine, 3, mine.triangleCount(), rows, ghosts, options, output);
+  output->SetPolys(takeCells(std::move(shape.Triangles), 3));
+  output->SetLines(takeCells(std::move(shape.Lines), 2));
+  output->SetVerts(takeCells(std::move(shape.Vertices), 1));
+  numberCells(ranks, output);
+}
+
+void fillAlphaOutput(Communicator& ranks, const DistributedTetrahedralization& mine,
+  const PointRows& rows, const GhostTetrahedra& ghosts, const AlphaOptions& options,
+  vtkUnstructuredGrid* output)
+{
+  setAlphaCells(
+    fillAlphaPoints(ranks, mine, mine.cellSize(), mine.cellCount(), rows, ghosts, options, output),
+    output);
+  numberCells(ranks, output);
 }
 
 } // namespace tipp

@@ -7,6 +7,7 @@
 #include "Distributed/ConstrainRanks.h"
 #include "Distributed/DistributedTriangulation.h"
 #include "Distributed3D/DistributedTetrahedralization.h"
+#include "InMemory/AlphaShape.h"
 #include "vtkTIPPFiltersModule.h"
 
 #include "vtkSmartPointer.h"
@@ -60,6 +61,31 @@ struct ConstraintMarks
 /// array vtkGhostType.
 void fillOutput(const DistributedTriangulation& mine, int rank, const PointRows& rows,
   const GhostTriangles* ghosts, const ConstraintMarks& marks, vtkPolyData* output);
+
+/// The alpha shape that is output in place of all cells.
+struct AlphaOptions
+{
+  double Alpha;
+  bool Tetrahedra; ///< whether these are output, like the next ones
+  bool Triangles;
+  bool Lines;
+  bool Vertices;
+};
+
+/// Sets the cells of an alpha shape.
+void setAlphaCells(AlphaShape<std::int32_t>&& shape, vtkUnstructuredGrid* output);
+
+///@{
+/// Fills `output` with a rank's share of the alpha shape of all ranks' cells: each cell is on one
+/// rank. Cells and their faces are as those of alphaShape() in memory. Adds the points that the
+/// share uses, and global ids of points and cells. `ghosts`: of fetchGhosts(). Collective.
+void fillAlphaOutput(Communicator& ranks, const DistributedTriangulation& mine,
+  const PointRows& rows, const GhostTriangles& ghosts, const AlphaOptions& options,
+  vtkPolyData* output);
+void fillAlphaOutput(Communicator& ranks, const DistributedTetrahedralization& mine,
+  const PointRows& rows, const GhostTetrahedra& ghosts, const AlphaOptions& options,
+  vtkUnstructuredGrid* output);
+///@}
 
 /// Fills `output` with a rank's cells: the points that they use, the points' data, and global ids
 /// of points and cells. `ghosts` may be null; otherwise their cells are added, with the array

@@ -319,18 +319,6 @@ TEST(Delaunay3DRanks, StatisticsAreTheSameOnAllRanks)
   EXPECT_EQ(totals->GetArray("Tetrahedra")->GetTuple1(0), sum);
 }
 
-TEST(Delaunay3DRanks, OptionsForOneRankAreRefusedOnAll)
-{
-  vtkNew<vtkTIPPDelaunay3D> filter;
-  filter->SetAlpha(0.1);
-  filter->SetInputData(shareOf(pointsInSpace("uniform", 500), true));
-  vtkObject::GlobalWarningDisplayOff();
-  filter->Update();
-  vtkObject::GlobalWarningDisplayOn();
-  EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
-  EXPECT_NE(filter->GetErrorCode(), 0U);
-}
-
 TEST(Delaunay3DRanks, APropertyThatIsNotFiniteOnOneRankIsRefusedOnAll)
 {
   vtkNew<vtkTIPPDelaunay3D> filter;
@@ -504,6 +492,25 @@ TEST(Delaunay3DRanks, ToleranceMergesTheSamePoints)
     expectSameAsOneRank(pointsInSpace("uniform", 1500),
       [tolerance](vtkTIPPDelaunay3D* filter) { filter->SetTolerance(tolerance); });
   }
+}
+
+TEST(Delaunay3DRanks, AlphaShapeIsThatOfOneRank)
+{
+  auto points = pointsInSpace("uniform", 1200);
+  for (const double alpha : { 0.04, 0.07, 0.1 })
+  {
+    expectSameAsOneRank(points,
+      [alpha](vtkTIPPDelaunay3D* filter)
+      {
+        filter->SetAlpha(alpha);
+        filter->SetNumberOfPartitions(10);
+      });
+  }
+  for (Point3& p : points) // triangles
+  {
+    p.y = 2 * p.x;
+  }
+  expectSameAsOneRank(points, [](vtkTIPPDelaunay3D* filter) { filter->SetAlpha(0.03); });
 }
 
 TEST(Delaunay3DRanks, BoundingTriangulationHasTheSamePoints)

@@ -260,7 +260,116 @@ void expectSameAsOneRank(
   }
 }
 
+/// The cells of an output by global point ids: ascending, then -1.
+using CellPoints = std::array<std::int64_t, 3>;
+
+std::vector<CellPoints> cellPoints(vtkPolyData* mesh)
+{
+  vtkDataArray* const ids = mesh->GetPointData()->GetGlobalIds();
+  std::vector<CellPoints> cells;
+  mesh->BuildCells();
+  for (vtkIdType i = 0; i < mesh->GetNumberOfCells(); ++i)
+  {
+    vtkIdType size = 0;
+    const vtkIdType* corners = nullptr;
+    mesh->GetCellPoints(i, size, corners);
+    CellPoints cell = { -1, -1, -1 };
+    std::transform(corners, corners + size, cell.begin(),
+      [ids](vtkIdType point) { return ids ? idAt(ids, point) : point; });
+    std::sort(cell.begin(), cell.begin() + size);
+    cells.push_back(cell);
+  }
+  return cells;
+}
+
+/// Expects that the ranks together have the triangles, lines and vertices of one rank.
+void expectSameAlphaShape(const std::vector<Point3>& points, const Configure& configure)
+{
+  std::vector<PointId> all(points.size());
+  std::iota(all.begin(), all.end(), 0);
+  vtkNew<vtkTIPPDelaunay2D> alone;
+  alone->SetController(nullptr);
+  alone->SetInputData(dataOf(points, all, false));
+  configure(alone);
+  vtkObject::GlobalWarningDisplayOff();
+  alone->Update();
+  std::vector<CellPoints> expected = cellPoints(alone->GetOutput());
+  std::sort(expected.begin(), expected.end());
+  EXPECT_FALSE(expected.empty());
+  for (const Share share : { Share::Blocks, Share::Uneven, Share::AllOnLast })
+  {
+    SCOPED_TRACE(nameOf(share));
+    vtkNew<vtkTIPPDelaunay2D> filter;
+    filter->SetInputData(shareAsData(points, share, share != Share::Blocks));
+    configure(filter);
+    filter->Update();
+    Communicator box(vtkMultiProcessController::GetGlobalController());
+    std::vector<CellPoints> cells;
+    for (const auto& part : box.gather(cellPoints(filter->GetOutput())))
+    {
+      cells.insert(cells.end(), part.begin(), part.end());
+    }
+    box.barrier();
+    std::sort(cells.begin(), cells.end());
+    if (rank() == 0)
+    {
+      EXPECT_EQ(expected.size(), cells.size());
+      EXPECT_TRUE(expected == cells);
+    }
+  }
+  vtkObject::GlobalWarningDisplayOn();
+}
+
 } // namespace
+
+TEST(Delaunay2DOptionsOnRanks, AlphaShapeIsThatOfOneRank)
+{
+  for (const double alpha : { 0.005, 0.012, 0.03 })
+  {
+    expectSameAlphaShape(
+      surface("uniform", 2000), [alpha](vtkTIPPDelaunay2D* filter) { filter->SetAlpha(alpha); });
+  }
+  expectSameAlphaShape(surface("uniform", 2000),
+    [](vtkTIPPDelaunay2D* filter)
+    {
+      filter->SetAlpha(0.012);
+      filter->AlphaTrisOff();
+      filter->AlphaVertsOff();
+    });
+}
+
+TEST(Delaunay2DOptionsOnRanks, AlphaShapeOfALatticeIsThatOfOneRank)
+{
+  std::vector<Point3> points;
+  for (int i = 0; i < 900; ++i) // all circumradii are nearly equal
+  {
+    points.push_back({ 0.1 * (i % 30), 0.1 * (i / 30), 0.3 * (i % 30) });
+  }
+  std::shuffle(points.begin(), points.end(), std::mt19937(3));
+  for (const double alpha : { 0.05 * std::sqrt(11.0), 0.16, 0.17 })
+  {
+    expectSameAlphaShape(points, [alpha](vtkTIPPDelaunay2D* filter) { filter->SetAlpha(alpha); });
+  }
+}
+
+TEST(Delaunay2DOptionsOnRanks, AlphaShapeHasPointsWithoutTriangles)
+{
+  std::vector<Point3> points = surface("uniform", 500);
+  expectSameAlphaShape(points,
+    [](vtkTIPPDelaunay2D* filter)
+    {
+      filter->SetAlpha(0.1);
+      filter->SetMaximumEdgeLength(0.02);
+      filter->SetTolerance(1e-4);
+    });
+  for (Point3& p : points)
+  {
+    p.y = 2 * p.x;
+  }
+  points[7] = points[5];
+  points[9].x = NAN;
+  expectSameAlphaShape(points, [](vtkTIPPDelaunay2D* filter) { filter->SetAlpha(0.1); });
+}
 
 TEST(Delaunay2DOptionsOnRanks, NeighborIdsAreTheTrianglesAcrossTheEdges)
 {

@@ -268,18 +268,6 @@ TEST(Delaunay2DRanks, StatisticsAreTheSameOnAllRanks)
   EXPECT_GT(filter->GetStatistics()->GetNumberOfRows(), 0);
 }
 
-TEST(Delaunay2DRanks, OptionsForOneRankAreRefusedOnAll)
-{
-  vtkNew<vtkTIPPDelaunay2D> filter;
-  filter->SetAlpha(0.1);
-  filter->SetInputData(shareAsData(makePointSet("uniform", 500), true));
-  vtkObject::GlobalWarningDisplayOff();
-  filter->Update();
-  vtkObject::GlobalWarningDisplayOn();
-  EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
-  EXPECT_NE(filter->GetErrorCode(), 0u);
-}
-
 TEST(Delaunay2DRanks, APropertyThatIsNotFiniteOnOneRankIsRefusedOnAll)
 {
   vtkNew<vtkTIPPDelaunay2D> filter;
