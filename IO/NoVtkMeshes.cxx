@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Replaces VtkMeshes.cxx in a build without VTK: of VTK's files, it reads the .vtu files of
+// Replaces Meshes/VtkMeshes.cxx in a build without VTK: of VTK's files, it reads the .vtu files of
 // triangles or tetrahedra that can be read in place.
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
