@@ -45,7 +45,7 @@ inline void DelaunayKernel::insertInOrder(Index first, Index end)
 
 void DelaunayKernel::insertVertices(Index first, Index end)
 {
-  runWith(this->Allowed, [&] { this->insertInOrder(first, end); });
+  runWithManyRegisters(this->Allowed, [&] { this->insertInOrder(first, end); });
 }
 
 } // namespace tipp
