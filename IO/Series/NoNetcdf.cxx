@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Files/Formats.h"
 #include "Files/IOError.h"
 #include "Series/NetcdfSeries.h"
 #include "Series/SeriesOutput.h"
@@ -35,12 +36,21 @@ std::unique_ptr<SeriesOutput> createNetcdfSeries(
     "libnetcdf-dev) and build again, or write .tif, .npy or .pvd.");
 }
 
+void requireNetcdfFor(const std::string& output)
+{
+  if (isOpenedBy(output, Opener::Netcdf))
+  {
+    throw IOError(output,
+      "cannot be written: this build has no NetCDF; install the NetCDF library (Debian's "
+      "libnetcdf-dev) and build again, or write another format.");
+  }
+}
+
 bool writeUgrid(const std::string& path, const UgridContent&, const std::optional<PathState>&,
   const std::function<bool()>&)
 {
-  throw IOError(path,
-    "cannot be written: this build has no NetCDF; install the NetCDF library (Debian's "
-    "libnetcdf-dev) and build again, or write another format.");
+  requireNetcdfFor(path);
+  return false;
 }
 
 } // namespace tipp

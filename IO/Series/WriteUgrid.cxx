@@ -229,6 +229,8 @@ private:
 
 } // namespace
 
+void requireNetcdfFor(const std::string&) {}
+
 bool writeUgrid(const std::string& path, const UgridContent& content,
   const std::optional<PathState>& before, const std::function<bool()>& aborted)
 {

@@ -51,6 +51,10 @@ struct UgridContent
 /// IOError.
 VTKTIPPIO_EXPORT UgridContent ugridOf(MeshSeries& series);
 
+/// Throws IOError in a build without NetCDF if the path is that of a NetCDF file to be written: so
+/// that a long computation does not end with this error.
+VTKTIPPIO_EXPORT void requireNetcdfFor(const std::string& output);
+
 /// Writes a NetCDF-4 file by UGRID 1.0 and CF 1.8, compressed. Values that are NaN are the fill
 /// value. `before` as for PendingFile. The file appears only when it is complete. Returns false if
 /// `aborted` returned true; throws IOError, also in a build without NetCDF.

@@ -7,6 +7,7 @@
 #include "Files/RequireApart.h"
 #include "OutOfCore/OutOfCoreOptions.h"
 #include "OutOfCore/OutOfCoreTriangulation.h"
+#include "Series/WriteUgrid.h"
 
 #include <fmt/format.h>
 #include <sys/resource.h>
@@ -235,6 +236,7 @@ PathState requireWritable(
   const std::string& output, const std::string& statistics, const std::vector<std::string>& inputs)
 {
   checkOutputs(output, statistics, "", inputs);
+  requireNetcdfFor(output);
   return PendingFile(output).before();
 }
 
