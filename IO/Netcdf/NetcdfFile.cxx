@@ -124,7 +124,12 @@ void NetcdfFile::start()
     NetcdfContent content;
     archive(content);
     checkContent(this->Path, content);
-    this->Content = std::move(content);
+    // Callers keep references to variables, also if the helper is started again.
+    if (!this->HasContent)
+    {
+      this->Content = std::move(content);
+    }
+    this->HasContent = true;
   }
   catch (const IOError&)
   {
@@ -319,6 +324,12 @@ std::string NetcdfFile::readText(const NetcdfVariable& variable)
   const NetcdfPart part{ variable.Id, std::vector<std::int64_t>(shape.size(), 0), shape };
   const std::size_t size = this->checkPart(variable, part);
   return !variable.IsText || size == 0 ? "" : std::string(this->fetch(variable, part, size), size);
+}
+
+void NetcdfFile::rest()
+{
+  this->Pending.reset();
+  this->Helper.reset();
 }
 
 void NetcdfFile::prefetch(const NetcdfVariable& variable, const std::vector<std::int64_t>& start,

@@ -57,6 +57,9 @@ public:
   void prefetch(const NetcdfVariable& variable, const std::vector<std::int64_t>& start,
     const std::vector<std::int64_t>& count);
 
+  /// Frees the memory that the library keeps for chunks, until the next call.
+  void rest();
+
 private:
   /// The values of a part, in their type, until the next call.
   const char* fetch(const NetcdfVariable& variable, const NetcdfPart& part, std::size_t bytes);
@@ -71,7 +74,8 @@ private:
 
   std::string Path;
   std::string Group;
-  NetcdfContent Content;
+  NetcdfContent Content; ///< stays where it is
+  bool HasContent = false;
   std::unique_ptr<HelperProcess> Helper;
   std::optional<NetcdfPart> Pending; ///< asked for and not received
 };

@@ -195,7 +195,8 @@ NetcdfAttribute NetcdfLibrary::attributeOf(const Variable& variable, int index)
 }
 
 /// Lets the library keep the chunks that it will need again, so that it decompresses them once:
-/// those at the end of the part and, where chunks hold several steps, all that a step needs.
+/// those of the part, at whose end the next one may begin, and, where chunks hold several steps,
+/// all that a step needs.
 void NetcdfLibrary::enlargeCache(const NetcdfPart& part)
 {
   constexpr double most = double(std::size_t(512) << 20);
@@ -228,7 +229,7 @@ void NetcdfLibrary::enlargeCache(const NetcdfPart& part)
     nc_inq_dimlen(file, dimensions[i], &size);
     const double side = std::max(double(chunk[i]), 1.0);
     const double all = std::ceil(double(size) / side);
-    const double touched = std::min(all, std::ceil(double(part.Count[i]) / side) + 1);
+    const double touched = std::min(all, std::ceil(double(part.Count[i]) / side));
     const double along = isStep(i) ? 1 : holdsSteps ? all : touched;
     needed *= along * side;
     chunks *= std::max(along, 1.0);

@@ -152,6 +152,7 @@ public:
     }
     if (this->Begin >= this->Cells)
     {
+      this->File.rest(); // the work that follows needs much memory
       return false;
     }
     this->readBlock();

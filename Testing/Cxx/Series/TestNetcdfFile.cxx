@@ -67,6 +67,22 @@ TEST_F(NetcdfFiles, GiveWhatIsAskedForWhateverIsPrefetched)
   EXPECT_EQ(1, values.at(0));
 }
 
+TEST_F(NetcdfFiles, AreReadAgainAfterARest)
+{
+  NetcdfWriter writer(this->Folder.path("a.nc"));
+  const int v = writer.variable("v", NC_DOUBLE, { writer.dimension("many", 3) });
+  writer.put(v, { 1, 2, 3 });
+  NetcdfFile file(writer.close());
+  const NetcdfVariable& variable = *file.content().find("v");
+  EXPECT_EQ((std::vector<double>{ 1, 2, 3 }), file.read(variable));
+  file.prefetch(variable, { 1 }, { 2 });
+  file.rest();
+  std::vector<double> values;
+  file.read(variable, { 1 }, { 2 }, values);
+  EXPECT_EQ((std::vector<double>{ 2, 3 }), values);
+  EXPECT_EQ(&variable, file.content().find("v"));
+}
+
 TEST_F(NetcdfFiles, LargerThanMemoryAreRefused)
 {
   NetcdfWriter writer(this->Folder.path("a.nc"));
