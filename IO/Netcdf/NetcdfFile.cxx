@@ -60,15 +60,15 @@ std::size_t valueBytes(const NetcdfVariable& variable)
   return isNumber(variable) ? scalarSize(*variable.Type) : 1;
 }
 
-/// Throws unless the file is of one of NetCDF's formats; those based on HDF5 may have other bytes
-/// before.
-void checkBeginning(const std::string& path)
+/// Throws unless the file is of one of NetCDF's formats or, with `hasGroups`, of HDF5; those based
+/// on HDF5 may have other bytes before.
+void checkBeginning(const std::string& path, bool hasGroups)
 {
   const InputFile file(path);
   constexpr std::size_t size = 8;
   char begin[size] = {};
   file.read(0, begin, std::size_t(std::min<std::uint64_t>(size, file.size())));
-  if (std::memcmp(begin, "CDF", 3) == 0)
+  if (!hasGroups && std::memcmp(begin, "CDF", 3) == 0)
   {
     checkClassicFile(file);
     return;
@@ -81,7 +81,9 @@ void checkBeginning(const std::string& path)
   }
   if (!isHdf)
   {
-    throw IOError(path, "is not a NetCDF file; copy it again, or check its name.");
+    throw IOError(path,
+      std::string("is not ") + (hasGroups ? "an HDF5" : "a NetCDF") +
+        " file; copy it again, or check its name.");
   }
 }
 
@@ -108,7 +110,7 @@ NetcdfFile::NetcdfFile(const std::string& path, const std::string& group)
   : Path(path)
   , Group(group)
 {
-  checkBeginning(path);
+  checkBeginning(path, !group.empty());
   this->start();
 }
 

@@ -232,6 +232,8 @@ TEST_F(VtkHdf, StepsBeyondTheFileAreErrors)
 
 TEST_F(VtkHdf, FilesOfAnotherKindAreNamed)
 {
+  this->Folder.file("m.vtkhdf", "# vtk DataFile Version 5.1");
+  expectIOError(this->Path, "is not an HDF5 file", [this] { readDataSet(this->Path); });
   NetcdfWriter(this->Path).close();
   expectIOError(this->Path, "it has no group 'VTKHDF'", [this] { readDataSet(this->Path); });
 }
