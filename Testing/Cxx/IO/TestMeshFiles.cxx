@@ -225,7 +225,7 @@ TEST_F(MeshFiles, OtherCellsAreReported)
 TEST_F(MeshFiles, UnknownExtensionIsReported)
 {
   const std::string path = this->Folder.path("mesh.stl2");
-  tipp::test::expectIOError(path, "use .npy, .vtp, .vtu, .14, .gr3, .2dm, .msh or .node",
+  tipp::test::expectIOError(path, "use .npy, .vtp, .vtu, .14, .gr3, .2dm, .nc, .msh or .node",
     [&]() { tipp::writeMesh(path, this->Points, this->view32()); });
   tipp::test::expectIOError(path, "no extension", [&]() { readMesh(path); });
 }
