@@ -159,8 +159,11 @@ void SampledPieces::addArrays(const Piece& piece, bool ofPoints)
       [&source](const Array& array) { return array.Source.Name == source.Name; });
     if (known != this->Arrays.end())
     {
-      this->Warnings.push_back("There are a point array and a cell array '" + source.Name +
-        "'; only the one of the points is sampled.");
+      if (this->Settings.Names.empty()) // a name that is given means the array of the points
+      {
+        this->Warnings.push_back("There are a point array and a cell array '" + source.Name +
+          "'; only the one of the points is sampled.");
+      }
       continue;
     }
     const Scalar type = this->Settings.Conservative ? Scalar::Float64 : source.Type;

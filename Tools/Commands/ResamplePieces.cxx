@@ -23,6 +23,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <new>
 #include <numeric>
@@ -43,9 +44,16 @@ constexpr std::uint64_t bytesOfCell = 128;
 std::unique_ptr<PieceSource> openSource(const ResampleArguments& arguments)
 {
   const std::string& path = arguments.Input;
-  if (!isFlatMesh(path) && isOpenedBy(path, Opener::Vtk))
+  if (!isFlatMesh(path) && !isPartitionedMesh(path))
   {
-    refuseVtkMesh(path);
+    if (!std::filesystem::is_regular_file(path))
+    {
+      throw IOError(path, "is not a file that can be read; check the name.");
+    }
+    if (isOpenedBy(path, Opener::Vtk))
+    {
+      refuseVtkMesh(path);
+    }
   }
   SourceOptions options;
   options.Tiling = TilingChoice::require("grid:1x1"); // a flat mesh is read as one piece
@@ -129,7 +137,10 @@ public:
     , IsStored(isPartitionedMesh(arguments.Input))
     , IsSurface(this->mesh().CellSize == 3)
   {
-    requireArrays(arguments, namesOf(this->mesh()), this->IsSurface ? elevationName : "");
+    // Whether a flat mesh has an elevation is known when it is read.
+    const bool isOpen = this->IsSurface && !this->IsStored;
+    const Box3 extent = extentOf(this->mesh());
+    requireArrays(arguments, this->names(extent.Min.z < extent.Max.z), isOpen ? elevationName : "");
     this->Reading.Step =
       int(parseSteps(arguments.Step, this->mesh().Times.size(), arguments.Input).front());
     requireZ(arguments, !this->IsSurface);
@@ -169,6 +180,17 @@ public:
 
 private:
   const PartitionedMesh& mesh() const { return this->Source->mesh(); }
+
+  /// The names of all arrays, with that of the elevation if a surface's points differ in z.
+  ArrayNames names(bool differInZ) const
+  {
+    ArrayNames names = namesOf(this->mesh());
+    if (this->IsSurface && differInZ)
+    {
+      names.OfPoints.insert(elevationName);
+    }
+    return names;
+  }
 
   /// A .vtu file is read whole, as VTK does it.
   bool isCutToRange() const
@@ -247,6 +269,11 @@ private:
     }
     if (!this->Samples)
     {
+      const bool differInZ = this->Heights.Min.z < this->Heights.Max.z;
+      if (!this->IsStored)
+      {
+        requireArrays(this->Arguments, this->names(differInZ), "");
+      }
       const Box3 whole = this->IsStored ? extentOf(this->mesh()) : extentOf(piece, { 0, 1, 2 });
       const Lattice lattice = this->latticeOf(this->requireBounds(whole));
       const std::vector<int> axes =
@@ -260,7 +287,7 @@ private:
       const bool isWanted =
         names.empty() || std::find(names.begin(), names.end(), elevationName) != names.end();
       this->Elevations = this->IsSurface && isWanted && axes == std::vector<int>{ 0, 1 } &&
-        (groups > 1 || this->Heights.Min.z < this->Heights.Max.z);
+        (groups > 1 || differInZ);
       this->makeSamples(this->Bounds, axes, groups == 1);
     }
     if (this->Elevations)
