@@ -193,6 +193,9 @@ public:
   /// was stopped.
   PartitionIndex tryTake();
 
+  /// The number of partitions that were not handed out yet.
+  std::size_t left() const { return this->NotTaken.load(std::memory_order_relaxed); }
+
   /// Marks a partition of this or another rank as done. Call it when its messages are in the
   /// inboxes.
   void finish(PartitionIndex p);

@@ -25,12 +25,12 @@ public:
 
   Cavity();
 
-  /// Removes the triangles in conflict with `vertex`, starting at `found`, and connects the vertex
-  /// to every edge of the cavity's boundary. The new triangles, two more than the removed ones,
-  /// reuse their indices and are appended to the mesh, which must have capacity for three. Returns
-  /// a new triangle that is finite.
+  /// Does so for `vertex`, starting at a triangle in conflict with it. Returns a new triangle that
+  /// is finite.
   Index retriangulate(HalfEdgeMesh& mesh, const Point2* points, KernelPredicates& predicates,
     const Location& found, Index vertex);
+
+  class Growth;
 
 private:
   /// The apexes of the triangles across the two edges of a pair.
@@ -57,7 +57,6 @@ private:
     Fan After;
   };
 
-  class Growth;
   void grow();
 
   // Kept larger than any insertion so far has needed.
@@ -65,7 +64,10 @@ private:
   std::vector<Deferred> Stack;
 };
 
-/// One call of retriangulate(): a local object, so that its counters stay in registers.
+/// Removes the triangles in conflict with a vertex step by step, and connects the vertex to every
+/// edge of the cavity's boundary. The new triangles, two more than the removed ones, reuse their
+/// indices and are appended to the mesh, which must have capacity for three. A local object, so
+/// that its members stay in registers; it serves one vertex after another.
 ///
 /// The cavity has no vertex inside, so its dual is a tree: no triangle is visited twice and no
 /// marks are needed. After the removal of t triangles, depth-first, at most t + 2 boundary edges
@@ -75,78 +77,97 @@ private:
 class Cavity::Growth
 {
 public:
-  Growth(Cavity& cavity, HalfEdgeMesh& mesh, const Point2* points, KernelPredicates& predicates,
-    Index vertex)
+  Growth(Cavity& cavity, HalfEdgeMesh& mesh, const Point2* points, KernelPredicates& predicates)
     : Result(cavity)
+    , Mesh(mesh)
     , Slot(mesh.slots())
     , Points(points)
     , Predicates(predicates)
-    , P(pairAt(&points[vertex].x))
-    , Vertex(vertex)
-    , None(mesh.end() + 16)
-    , Last(this->None)
-    , After{ this->None, this->None }
-    , NextFree(cavity.Free.data())
-    , FreeEnd(cavity.Free.data())
-    , StackEnd(cavity.Stack.data())
   {
-    *this->FreeEnd++ = mesh.end();
-    *this->FreeEnd++ = mesh.end() + 8;
-    mesh.setEnd(mesh.end() + 16);
   }
 
-  Index run(const Location& at)
+  /// Begins the cavity of `vertex` at a triangle in conflict with it.
+  void begin(const Location& at, Index vertex)
   {
+    const Index end = this->Mesh.end();
+    this->P = pairAt(&this->Points[vertex].x);
+    this->Vertex = vertex;
+    this->None = end + 16;
+    this->Last = this->None;
+    this->After = { this->None, this->None };
+    this->NextFree = this->FreeEnd = this->Result.Free.data();
+    this->StackEnd = this->Result.Stack.data();
+    *this->FreeEnd++ = end;
+    *this->FreeEnd++ = end + 8;
     *this->FreeEnd++ = at.Triangle;
-    EdgePair edges = at.Edges;
-    ApexPair apex;
-    unsigned inside = this->test(edges, apex);
+    this->Mesh.setEnd(end + 16);
+    this->Edges = at.Edges;
+    this->Inside = this->test(this->Edges, this->Apex);
     if (at.LastIsOutside)
     {
-      this->addAcross(at.LastOuter, edges.Stop, edges.Start);
+      this->addAcross(at.LastOuter, this->Edges.Stop, this->Edges.Start);
     }
     else
     {
       this->addLast(at);
     }
-    for (;; inside = this->test(edges, apex))
+  }
+
+  /// Adds what lies across the current pair of edges, and tests the next pair. Returns false, with
+  /// nothing left to do, once all edges of the boundary are found. The result of a test decides
+  /// only in the next step: until then the processor can do something else.
+  bool step()
+  {
+    const EdgePair tested = this->Edges;
+    if (this->Inside & 1)
     {
-      if (inside & 1)
+      this->destroy(tested.FirstOuter);
+      if (this->Inside & 2)
       {
-        this->destroy(edges.FirstOuter);
-        if (inside & 2)
-        {
-          this->destroy(edges.SecondOuter);
-          this->defer(this->acrossSecond(edges, apex));
-          edges = this->acrossFirst(edges, apex);
-        }
-        else
-        {
-          const EdgePair tested = edges;
-          edges = this->acrossFirst(edges, apex);
-          this->addAcross(tested.SecondOuter, tested.Middle, tested.Stop);
-        }
-        continue;
+        this->destroy(tested.SecondOuter);
+        this->defer(this->acrossSecond(tested, this->Apex));
+        this->Edges = this->acrossFirst(tested, this->Apex);
       }
-      if (inside & 2)
+      else
       {
-        this->destroy(edges.SecondOuter);
-        const EdgePair tested = edges;
-        edges = this->acrossSecond(edges, apex);
-        this->addBefore(tested.FirstOuter, tested.Start, tested.Middle);
-        continue;
+        this->Edges = this->acrossFirst(tested, this->Apex);
+        this->addAcross(tested.SecondOuter, tested.Middle, tested.Stop);
       }
-      this->addBefore(edges.FirstOuter, edges.Start, edges.Middle);
-      this->addBefore(edges.SecondOuter, edges.Middle, edges.Stop);
+    }
+    else if (this->Inside & 2)
+    {
+      this->destroy(tested.SecondOuter);
+      this->Edges = this->acrossSecond(tested, this->Apex);
+      this->addBefore(tested.FirstOuter, tested.Start, tested.Middle);
+    }
+    else
+    {
+      this->addBefore(tested.FirstOuter, tested.Start, tested.Middle);
+      this->addBefore(tested.SecondOuter, tested.Middle, tested.Stop);
       this->closeGap();
       if (this->StackEnd == this->Result.Stack.data())
       {
-        return this->closeRing();
+        return false;
       }
       const Deferred& next = *--this->StackEnd;
-      edges = next.Edges;
+      this->Edges = next.Edges;
       this->After = next.After;
     }
+    this->Inside = this->test(this->Edges, this->Apex);
+    return true;
+  }
+
+  /// Links the first new triangle and the last one. Returns a new triangle that is finite.
+  Index closeRing()
+  {
+    Index t = HalfEdgeMesh::twinOf(this->Slot, this->None + 1) - 2;
+    this->link(this->Last, t);
+    for (const Index* slot = this->Slot + t; slot[1] == InfiniteVertex || slot[2] == InfiniteVertex;
+         slot = this->Slot + t)
+    {
+      t = HalfEdgeMesh::triangleOf(slot[5]);
+    }
+    return t;
   }
 
 private:
@@ -225,18 +246,6 @@ private:
   {
     this->link(this->Last, this->After.First);
     this->Last = this->lastAfterOr(this->Last);
-  }
-
-  Index closeRing()
-  {
-    Index t = HalfEdgeMesh::twinOf(this->Slot, this->None + 1) - 2;
-    this->link(this->Last, t);
-    for (const Index* slot = this->Slot + t; slot[1] == InfiniteVertex || slot[2] == InfiniteVertex;
-         slot = this->Slot + t)
-    {
-      t = HalfEdgeMesh::triangleOf(slot[5]);
-    }
-    return t;
   }
 
   /// Processes the third edge of the first triangle, copied to both lanes.
@@ -324,24 +333,34 @@ private:
   }
 
   Cavity& Result;
+  HalfEdgeMesh& Mesh;
   Index* const Slot;
   const Point2* const Points;
   KernelPredicates& Predicates;
-  const Pair P;
-  const Index Vertex;
-  const Index None; ///< no triangle
-  Index Last;       ///< the last triangle of the fan Before
-  Fan After;
+  Pair P{ 0, 0 };
+  Index Vertex = 0;
+  Index None = 0; ///< no triangle
+  Index Last = 0; ///< the last triangle of the fan Before
+  Fan After{ 0, 0 };
   // Pointers into the cavity's arrays.
-  const Index* NextFree;
-  Index* FreeEnd;
-  Deferred* StackEnd;
+  const Index* NextFree = nullptr;
+  Index* FreeEnd = nullptr;
+  Deferred* StackEnd = nullptr;
+  // The current pair of edges, and the result of its test.
+  EdgePair Edges = {};
+  ApexPair Apex = {};
+  unsigned Inside = 0;
 };
 
 inline Cavity::Index Cavity::retriangulate(HalfEdgeMesh& mesh, const Point2* points,
   KernelPredicates& predicates, const Location& found, Index vertex)
 {
-  return Growth(*this, mesh, points, predicates, vertex).run(found);
+  Growth growth(*this, mesh, points, predicates);
+  growth.begin(found, vertex);
+  while (growth.step())
+  {
+  }
+  return growth.closeRing();
 }
 
 } // namespace tipp

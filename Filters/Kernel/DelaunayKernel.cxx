@@ -42,7 +42,8 @@ std::size_t DelaunayKernel::bytes() const
     this->PointIndices.capacity() * sizeof(std::uint32_t);
 }
 
-bool DelaunayKernel::insert(const Point2* points, std::size_t count, const Monitor& proceed)
+/// Adds points as vertices to be inserted. Returns false if there are no triangles yet.
+bool DelaunayKernel::addVertices(const Point2* points, std::size_t count)
 {
   this->Order.compute(points, count);
   const Index first = this->vertexEnd();
@@ -61,7 +62,12 @@ bool DelaunayKernel::insert(const Point2* points, std::size_t count, const Monit
   // Euler's formula: n vertices and the infinite one have 2 n - 2 triangles. The cavity writes up
   // to one triangle beyond them.
   this->Mesh.reserve(2 * this->Points.size());
-  if (!this->hasTriangles() && !this->makeFirstTriangle(this->Pending))
+  return this->hasTriangles() || this->makeFirstTriangle(this->Pending);
+}
+
+bool DelaunayKernel::insert(const Point2* points, std::size_t count, const Monitor& proceed)
+{
+  if (!this->addVertices(points, count))
   {
     return true;
   }
@@ -69,14 +75,31 @@ bool DelaunayKernel::insert(const Point2* points, std::size_t count, const Monit
   while (this->Pending < this->vertexEnd())
   {
     const Index end = std::min(this->vertexEnd(), this->Pending + stride);
-    this->insertVertices(this->Pending, end);
-    this->Pending = end;
+    this->insertUpTo(end);
     if (end < this->vertexEnd() && proceed && !proceed(static_cast<std::size_t>(end) - 1))
     {
       return false;
     }
   }
   return true;
+}
+
+void DelaunayKernel::insertTwo(const Batch& one, const Batch& other)
+{
+  const bool isFirst = one.Kernel.addVertices(one.Points, one.Count);
+  const bool isSecond = other.Kernel.addVertices(other.Points, other.Count);
+  if (isFirst && isSecond)
+  {
+    insertInTurn(one.Kernel, other.Kernel);
+  }
+  else if (isFirst)
+  {
+    one.Kernel.insertUpTo(one.Kernel.vertexEnd());
+  }
+  else if (isSecond)
+  {
+    other.Kernel.insertUpTo(other.Kernel.vertexEnd());
+  }
 }
 
 /// Finds three points that are not collinear, moves them to the front, and creates their triangle

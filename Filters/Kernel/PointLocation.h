@@ -88,26 +88,27 @@ struct Location
   HalfEdgeMesh::Index EqualTo; ///< vertex with p's coordinates, or InfiniteVertex if none
 };
 
-/// Finds a triangle in conflict with a point.
+/// Finds a triangle in conflict with a point, by a walk that the caller does step by step.
 class PointLocation
 {
 public:
   using Index = HalfEdgeMesh::Index;
 
-  PointLocation(
-    const HalfEdgeMesh& mesh, const Point2* points, KernelPredicates& predicates, Pair p)
+  PointLocation(const HalfEdgeMesh& mesh, const Point2* points, KernelPredicates& predicates)
     : Slot(mesh.slots())
     , Points(points)
     , Predicates(predicates)
-    , P(p)
   {
   }
 
-  /// Walks from the finite triangle `start` towards p to the first triangle in conflict with p: at
-  /// the latest the one that contains p, or the infinite triangle at a hull edge that p lies
-  /// beyond. In a Delaunay triangulation this walk terminates (Devillers, Pion, Teillaud 2002).
-  Location from(Index start)
+  /// Begins a walk towards p at the finite triangle `start`. It ends at the first triangle in
+  /// conflict with p: at the latest the one that contains p, or the infinite triangle at a hull
+  /// edge that p lies beyond. In a Delaunay triangulation it terminates (Devillers, Pion, Teillaud
+  /// 2002).
+  void begin(Pair p, Index start)
   {
+    this->P = p;
+    this->EqualTo = InfiniteVertex;
     const Index* const v = this->Slot + HalfEdgeMesh::offset(start);
     this->A = this->corner(v[0]);
     this->B = this->corner(v[1]);
@@ -116,17 +117,54 @@ public:
     this->BC = cross(this->B, this->C);
     this->CA = cross(this->C, this->A);
     this->Last = start + 1;
-    const bool isThere = this->isInConflict();
-    if (!isThere)
-    {
-      this->chooseExit(v);
-      this->walk();
-    }
+    this->IsAtStart = true;
+    this->IsAtEnd = this->isInConflict();
+  }
+
+  bool isAtEnd() const { return this->IsAtEnd; }
+
+  /// Goes to the next triangle.
+  void step()
+  {
+    this->IsAtStart ? this->chooseFirstExit() : this->chooseExit();
+    this->enter();
+  }
+
+  /// Continues with the triangle behind the exit.
+  void enter()
+  {
+    this->IsAtStart = false;
+    this->B = this->corner(this->Slot[HalfEdgeMesh::offset(this->Last)]);
+    this->AB = cross(this->A, this->B);
+    this->BC = cross(this->B, this->C);
+    this->IsAtEnd = this->isInConflict();
+  }
+
+  /// Where the walk ended.
+  Location location() const
+  {
     const Index last = this->Last;
     return { HalfEdgeMesh::triangleOf(last),
       EdgePair::of(this->A, this->B, this->C, this->AB, this->BC,
         HalfEdgeMesh::twinOfNext(this->Slot, last), HalfEdgeMesh::twinOfPrevious(this->Slot, last)),
-      HalfEdgeMesh::twinOf(this->Slot, last), this->CA, !isThere, this->EqualTo };
+      HalfEdgeMesh::twinOf(this->Slot, last), this->CA, !this->IsAtStart, this->EqualTo };
+  }
+
+  /// The whole walk.
+  Location from(Pair p, Index start)
+  {
+    this->begin(p, start);
+    if (!this->IsAtEnd)
+    {
+      this->chooseFirstExit();
+      this->enter();
+      while (!this->IsAtEnd)
+      {
+        this->chooseExit();
+        this->enter();
+      }
+    }
+    return this->location();
   }
 
 private:
@@ -134,8 +172,9 @@ private:
 
   /// Chooses an edge of the first triangle that p lies beyond as the edge from C to A, whose
   /// opposite vertex B is to be found next.
-  void chooseExit(const Index* v)
+  void chooseFirstExit()
   {
+    const Index* const v = this->Slot + HalfEdgeMesh::offset(HalfEdgeMesh::triangleOf(this->Last));
     if (this->isRight(this->B, this->C, this->BC))
     {
       this->Last = v[4];
@@ -156,30 +195,20 @@ private:
     }
   }
 
-  void walk()
+  /// The same in a later triangle, which the walk entered across the edge from C to A.
+  void chooseExit()
   {
-    for (;;)
+    if (this->isRight(this->A, this->B, this->AB))
     {
-      const Index last = this->Last;
-      this->B = this->corner(this->Slot[HalfEdgeMesh::offset(last)]);
-      this->AB = cross(this->A, this->B);
-      this->BC = cross(this->B, this->C);
-      if (this->isInConflict())
-      {
-        return;
-      }
-      if (this->isRight(this->A, this->B, this->AB))
-      {
-        this->C = this->B;
-        this->CA = -this->AB;
-        this->Last = HalfEdgeMesh::twinOfNext(this->Slot, last);
-      }
-      else
-      {
-        this->A = this->B;
-        this->CA = -this->BC;
-        this->Last = HalfEdgeMesh::twinOfPrevious(this->Slot, last);
-      }
+      this->C = this->B;
+      this->CA = -this->AB;
+      this->Last = HalfEdgeMesh::twinOfNext(this->Slot, this->Last);
+    }
+    else
+    {
+      this->A = this->B;
+      this->CA = -this->BC;
+      this->Last = HalfEdgeMesh::twinOfPrevious(this->Slot, this->Last);
     }
   }
 
@@ -231,17 +260,19 @@ private:
   const Index* const Slot;
   const Point2* const Points;
   KernelPredicates& Predicates;
-  const Pair P;
+  Pair P{ 0, 0 };
   Index EqualTo = InfiniteVertex;
+  bool IsAtStart = true;
+  bool IsAtEnd = false;
 
   // The triangle reached: Last is its half-edge from C to A.
-  Corner A;
-  Corner B;
-  Corner C;
-  double AB;
-  double BC;
-  double CA;
-  Index Last;
+  Corner A = {};
+  Corner B = {};
+  Corner C = {};
+  double AB = 0;
+  double BC = 0;
+  double CA = 0;
+  Index Last = 0;
 };
 
 } // namespace tipp

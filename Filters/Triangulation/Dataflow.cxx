@@ -49,13 +49,45 @@ template <typename Id>
 void Worker<Id>::triangulate(PartitionIndex partition, std::vector<BoundaryVertex>&& vertices,
   const Box2& region, BoundaryConsumer& boundary)
 {
-  const PartitionIndex bucket = this->bucket(partition);
-  this->separateGhosts(partition, std::move(vertices));
-  this->Buckets.copyIds(bucket, this->Ids);
+  this->begin(partition, std::move(vertices));
+  this->insertPoints();
+  this->finish(region, boundary);
+}
+
+template <typename Id>
+void Worker<Id>::begin(PartitionIndex partition, std::vector<BoundaryVertex>&& vertices)
+{
+  this->Partition = partition;
+  this->separateGhosts(std::move(vertices));
+  this->Buckets.copyIds(this->bucket(partition), this->Ids);
   this->Kernel.clear();
-  // Inserts the partition's own points first, so that their interior triangles do not depend on
-  // other points.
-  this->Kernel.insert(this->Buckets.points(bucket), this->Buckets.count(bucket));
+}
+
+template <typename Id>
+DelaunayKernel::Batch Worker<Id>::ownPoints() const
+{
+  const PartitionIndex bucket = this->bucket(this->Partition);
+  return { this->Kernel, this->Buckets.points(bucket), this->Buckets.count(bucket) };
+}
+
+template <typename Id>
+void Worker<Id>::insertPoints()
+{
+  const DelaunayKernel::Batch own = this->ownPoints();
+  this->Kernel.insert(own.Points, own.Count);
+}
+
+template <typename Id>
+void Worker<Id>::insertPoints(Worker& one, Worker& other)
+{
+  DelaunayKernel::insertTwo(one.ownPoints(), other.ownPoints());
+}
+
+template <typename Id>
+void Worker<Id>::finish(const Box2& region, BoundaryConsumer& boundary)
+{
+  // The partition's own points have been inserted first, so that their interior triangles do not
+  // depend on other points.
   this->Kernel.insert(this->GhostPoints.data(), this->GhostPoints.size());
   // Small buffers are kept for the next partition.
   const bool isLarge = this->Kernel.bytes() > PooledKernel::MostBytesKept;
@@ -66,11 +98,11 @@ void Worker<Id>::triangulate(PartitionIndex partition, std::vector<BoundaryVerte
   this->VertexCount = static_cast<std::size_t>(this->Kernel.vertexEnd()) - 1;
   this->resolveDuplicates();
   boundary.begin(this->Kernel.vertexEnd());
-  this->findBoundary(this->Boxes.box(partition), region, boundary);
+  this->findBoundary(this->Boxes.box(this->Partition), region, boundary);
   this->setVertexIds();
-  this->edit(partition);
-  this->writeTriangles(
-    bucket, [this](Index t) { return !this->IsBoundary[DelaunayKernel::number(t)]; });
+  this->edit();
+  this->writeTriangles(this->bucket(this->Partition),
+    [this](Index t) { return !this->IsBoundary[DelaunayKernel::number(t)]; });
   if (isLarge)
   {
     this->Kernel.releaseTriangles();
@@ -80,6 +112,7 @@ void Worker<Id>::triangulate(PartitionIndex partition, std::vector<BoundaryVerte
 template <typename Id>
 bool Worker<Id>::triangulateAlone(const DelaunayKernel::Monitor& proceed)
 {
+  this->Partition = 0;
   this->KnownIds.clear();
   this->Buckets.copyIds(0, this->Ids);
   this->Kernel.clear();
@@ -96,7 +129,7 @@ bool Worker<Id>::triangulateAlone(const DelaunayKernel::Monitor& proceed)
     this->IsBoundary.clear();
     this->Kernel.forEach(
       [this](Index t) { this->IsBoundary.push_back(this->Kernel.isInfinite(t)); });
-    this->edit(0);
+    this->edit();
   }
   this->writeTriangles(0, [this](Index t) { return !this->Kernel.isInfinite(t); });
   return true;
@@ -105,7 +138,7 @@ bool Worker<Id>::triangulateAlone(const DelaunayKernel::Monitor& proceed)
 /// Separates the inbox's vertices: vertices of other partitions become ghosts; own points are only
 /// recorded as known to other partitions.
 template <typename Id>
-void Worker<Id>::separateGhosts(PartitionIndex partition, std::vector<BoundaryVertex>&& vertices)
+void Worker<Id>::separateGhosts(std::vector<BoundaryVertex>&& vertices)
 {
   this->Ghosts = std::move(vertices);
   this->KnownIds.clear();
@@ -113,7 +146,7 @@ void Worker<Id>::separateGhosts(PartitionIndex partition, std::vector<BoundaryVe
   std::size_t kept = 0;
   for (const BoundaryVertex& v : this->Ghosts)
   {
-    if (v.Partition == partition && !v.isArtificial())
+    if (v.Partition == this->Partition && !v.isArtificial())
     {
       this->KnownIds.push_back(v.Id - this->FirstId);
     }
@@ -232,11 +265,11 @@ void Worker<Id>::setVertexIds()
 }
 
 template <typename Id>
-void Worker<Id>::edit(PartitionIndex partition)
+void Worker<Id>::edit()
 {
   if (this->Editor)
   {
-    this->Editor->edit(PartitionEditor::Partition<Id>{ this->bucket(partition), this->Kernel,
+    this->Editor->edit(PartitionEditor::Partition<Id>{ this->bucket(this->Partition), this->Kernel,
       this->VertexIds.data(), this->IsBoundary.data(), this->Border });
   }
 }

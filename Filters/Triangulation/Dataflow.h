@@ -97,6 +97,16 @@ public:
   void triangulate(PartitionIndex partition, std::vector<BoundaryVertex>&& vertices,
     const Box2& region, BoundaryConsumer& boundary);
 
+  /// @name The steps of triangulate()
+  /// Two workers can insert their partitions' points in turn, which takes an eighth less time than
+  /// one after the other.
+  ///@{
+  void begin(PartitionIndex partition, std::vector<BoundaryVertex>&& vertices);
+  void insertPoints();
+  static void insertPoints(Worker& one, Worker& other);
+  void finish(const Box2& region, BoundaryConsumer& boundary);
+  ///@}
+
   /// A vertex of the kernel after the last triangulate().
   BoundaryVertex vertex(PartitionIndex partition, DelaunayKernel::Index v) const;
 
@@ -112,11 +122,12 @@ public:
   std::size_t vertexCount() const { return this->VertexCount; }
 
 private:
-  void separateGhosts(PartitionIndex partition, std::vector<BoundaryVertex>&& vertices);
+  void separateGhosts(std::vector<BoundaryVertex>&& vertices);
+  DelaunayKernel::Batch ownPoints() const;
   PartitionIndex bucket(PartitionIndex partition) const { return this->FirstBucket + partition; }
   void resolveDuplicates();
   void setVertexIds();
-  void edit(PartitionIndex partition);
+  void edit();
   void findBoundary(const Box2& box, const Box2& region, BoundaryConsumer& boundary);
   template <typename IsInterior>
   void writeTriangles(PartitionIndex bucket, const IsInterior& isInterior);
@@ -128,6 +139,7 @@ private:
   std::unique_ptr<PartitionEditor> Editor;
   PooledKernel Pooled;
   DelaunayKernel& Kernel;
+  PartitionIndex Partition = 0;
   std::vector<Id> Ids;                ///< ids of the partition's own points
   std::vector<Id> VertexIds;          ///< by kernel vertex: the point's id; -1 for ghosts
   std::vector<BoundaryVertex> Ghosts; ///< vertices from the inbox, except own points
@@ -215,11 +227,24 @@ public:
   std::int64_t triangulate(
     Worker<Id>& worker, PartitionIndex p, const std::vector<VertexMessage>& inbox)
   {
+    const std::int64_t handed = this->prepare(worker, p, inbox);
+    worker.insertPoints();
+    this->finish(worker);
+    return handed;
+  }
+
+  ///@{
+  /// The first and the last step of triangulate(). In between, the worker's points are inserted.
+  std::int64_t prepare(
+    Worker<Id>& worker, PartitionIndex p, const std::vector<VertexMessage>& inbox)
+  {
     this->Sender = p;
     this->Later = this->Order.later(p);
-    worker.triangulate(p, this->Unique.collect(inbox), this->Boxes[p], *this);
+    worker.begin(p, this->Unique.collect(inbox));
     return cellsOf(inbox);
   }
+  void finish(Worker<Id>& worker) { worker.finish(this->Boxes[this->Sender], *this); }
+  ///@}
 
   void begin(DelaunayKernel::Index vertexEnd) override
   {

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <atomic>
 #include <limits>
+#include <memory>
 #include <mutex>
 
 namespace tipp
@@ -251,28 +252,72 @@ private:
     }
   }
 
+  /// What a thread needs to triangulate a partition.
+  struct Lane
+  {
+    Lane(const PartitionedTriangulation& run, Shared& shared, PointBuckets<Id>& buckets)
+      : Triangles(shared.Tiles, buckets)
+      , Messages(shared.Order, shared.Boxes)
+    {
+      run.setEditor(this->Triangles);
+    }
+
+    Worker<Id> Triangles;
+    Routing<Id> Messages;
+    PartitionIndex Partition = NoPartition;
+    std::int64_t Handed = 0; ///< triangles whose vertices were in the inbox
+  };
+
+  /// Triangulates two partitions at a time, as long as enough are left for all threads.
   void workAsOneThread(Shared& shared, TriangleSink<Id>& sink, Contribution& part)
   {
-    Worker<Id> worker(shared.Tiles, this->Buckets);
-    this->setEditor(worker);
-    Routing<Id> routing(shared.Order, shared.Boxes);
+    Lane lane(*this, shared, this->Buckets);
+    std::unique_ptr<Lane> other;
     for (PartitionIndex p = shared.Ready.take(); p != NoPartition; p = shared.Ready.take())
     {
-      shared.Stages[shared.Order.position(p)] = { ++shared.Active, shared.Unfinished };
-      const std::int64_t handed =
-        routing.triangulate(worker, p, shared.Inboxes[std::size_t(p)].take());
-      shared.deliver(routing.send(worker, part.Boundary));
-      shared.Unfinished -= handed;
-      sink.setInteriorCount(p, worker.interiorCount());
-      part.WorkerVertices += worker.vertexCount();
-      part.Duplicates.insert(
-        part.Duplicates.end(), worker.duplicates().begin(), worker.duplicates().end());
-      --shared.Active;
-      shared.Ready.finish(p);
-      if (!this->reportFinished(this->Buckets.count(p)))
+      begin(shared, lane, p);
+      const PartitionIndex q =
+        shared.Ready.left() < std::size_t(this->Threads) ? NoPartition : shared.Ready.tryTake();
+      if (q == NoPartition)
       {
-        shared.Ready.stop();
+        lane.Triangles.insertPoints();
+        this->finish(shared, lane, sink, part);
+        continue;
       }
+      if (!other)
+      {
+        other = std::make_unique<Lane>(*this, shared, this->Buckets);
+      }
+      begin(shared, *other, q);
+      Worker<Id>::insertPoints(lane.Triangles, other->Triangles);
+      this->finish(shared, lane, sink, part);
+      this->finish(shared, *other, sink, part);
+    }
+  }
+
+  static void begin(Shared& shared, Lane& lane, PartitionIndex p)
+  {
+    lane.Partition = p;
+    shared.Stages[shared.Order.position(p)] = { ++shared.Active, shared.Unfinished };
+    lane.Handed = lane.Messages.prepare(lane.Triangles, p, shared.Inboxes[std::size_t(p)].take());
+  }
+
+  void finish(Shared& shared, Lane& lane, TriangleSink<Id>& sink, Contribution& part)
+  {
+    const PartitionIndex p = lane.Partition;
+    const Worker<Id>& worker = lane.Triangles;
+    lane.Messages.finish(lane.Triangles);
+    shared.deliver(lane.Messages.send(worker, part.Boundary));
+    shared.Unfinished -= lane.Handed;
+    sink.setInteriorCount(p, worker.interiorCount());
+    part.WorkerVertices += worker.vertexCount();
+    part.Duplicates.insert(
+      part.Duplicates.end(), worker.duplicates().begin(), worker.duplicates().end());
+    --shared.Active;
+    shared.Ready.finish(p);
+    if (!this->reportFinished(this->Buckets.count(p)))
+    {
+      shared.Ready.stop();
     }
   }
 

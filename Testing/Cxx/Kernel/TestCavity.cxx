@@ -65,7 +65,7 @@ public:
     KernelPredicates predicates(this->Points.data(), this->Points.size());
     const Point2 p = this->Points.back();
     const Location found =
-      PointLocation(this->Mesh, this->Points.data(), predicates, pairAt(&p.x)).from(this->Start);
+      PointLocation(this->Mesh, this->Points.data(), predicates).from(pairAt(&p.x), this->Start);
     Cavity cavity;
     this->Returned = cavity.retriangulate(
       this->Mesh, this->Points.data(), predicates, found, Index(this->Points.size() - 1));

@@ -38,7 +38,7 @@ public:
     std::vector<Point2> points = this->Points;
     points.push_back(p);
     KernelPredicates predicates(points.data(), points.size());
-    return PointLocation(this->Made.mesh(), points.data(), predicates, pairAt(&p.x)).from(start);
+    return PointLocation(this->Made.mesh(), points.data(), predicates).from(pairAt(&p.x), start);
   }
 
   Point2 corner(Index triangle, Index i) const
