@@ -74,7 +74,7 @@ public:
 
   /// Inserts points into two kernels, a step here and a step there: the processor computes one step
   /// while the other's branch waits for its comparisons. The meshes are as after two calls of
-  /// insert(), which take an eighth longer.
+  /// insert(), which take a tenth longer.
   static void insertTwo(const Batch& one, const Batch& other);
 
   /// False while all inserted points are collinear: there are no triangles yet.

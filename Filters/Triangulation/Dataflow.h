@@ -98,7 +98,7 @@ public:
     const Box2& region, BoundaryConsumer& boundary);
 
   /// @name The steps of triangulate()
-  /// Two workers can insert their partitions' points in turn, which takes an eighth less time than
+  /// Two workers can insert their partitions' points in turn, which takes a twelfth less time than
   /// one after the other.
   ///@{
   void begin(PartitionIndex partition, std::vector<BoundaryVertex>&& vertices);
