@@ -54,7 +54,7 @@ void checkProperties(vtkTIPPDelaunay2D* filter)
 
 constexpr const char* NoBounds =
   "No BoundingTriangulation: only the x-y plane has one, without a transform.";
-constexpr const char* NoNeighbors = "No NeighborIds: the output has lines, too.";
+constexpr const char* NoNeighborsWithLines = "No NeighborIds: the output has lines, too.";
 constexpr const char* NoNeighborsOfAlpha =
   "No NeighborIds: with Alpha not all triangles are output.";
 constexpr const char* NoMarksOfAlpha =
@@ -326,7 +326,7 @@ void vtkTIPPDelaunay2D::AddArrays(const tipp::ConstrainedTriangulation& result, 
   }
   else if (this->GenerateNeighborIds)
   {
-    vtkWarningMacro(<< (hasLines ? NoNeighbors : NoNeighborsOfAlpha));
+    vtkWarningMacro(<< (hasLines ? NoNeighborsWithLines : NoNeighborsOfAlpha));
   }
   if (hasSource && this->ConstraintMarks != NO_MARKS && this->Alpha != 0)
   {
@@ -523,7 +523,7 @@ void vtkTIPPDelaunay2D::ExecuteOnRanks(
       output);
     if (findsNeighbors != 0 && !addsNeighbors)
     {
-      warnings.emplace_back(hasLines ? NoNeighbors : NoNeighborsOfAlpha);
+      warnings.emplace_back(hasLines ? NoNeighborsWithLines : NoNeighborsOfAlpha);
     }
     if (shared && this->ConstraintMarks != NO_MARKS && alpha != 0)
     {

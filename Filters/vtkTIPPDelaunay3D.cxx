@@ -38,7 +38,8 @@ vtkStandardNewMacro(vtkTIPPDelaunay3D);
 namespace
 {
 
-constexpr const char* NoNeighbors = "No NeighborIds: with Alpha not all tetrahedra are output.";
+constexpr const char* NoNeighborsWithAlpha =
+  "No NeighborIds: with Alpha not all tetrahedra are output.";
 
 /// Returns the corners of an octahedron around a box.
 std::vector<tipp::Point3> octahedron(const tipp::Box3& bounds, double offset)
@@ -154,7 +155,7 @@ void vtkTIPPDelaunay3D::Execute(vtkPointSet* input, vtkInformationVector* output
   }
   else if (this->GenerateNeighborIds)
   {
-    vtkWarningMacro(<< NoNeighbors);
+    vtkWarningMacro(<< NoNeighborsWithAlpha);
   }
   const auto tetrahedra = std::int64_t(mesh.cellCount());
   mesh.Dimension == 2 ? this->SetCells(triangles.Ids32, 3, mesh, output)
@@ -284,8 +285,8 @@ void vtkTIPPDelaunay3D::ExecuteOnRanks(vtkPointSet* given, vtkInformationVector*
   if (ranks.isFirst())
   {
     tipp::warn(this, tipp::warningsOf(mine));
-    tipp::warn(
-      this, noNeighbors ? std::vector<std::string>{ NoNeighbors } : std::vector<std::string>());
+    tipp::warn(this,
+      noNeighbors ? std::vector<std::string>{ NoNeighborsWithAlpha } : std::vector<std::string>());
   }
 }
 
