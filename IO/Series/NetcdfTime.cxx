@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Series/NetcdfTime.h"
 
+#include "Files/IOError.h"
 #include "Files/TextFile.h"
 #include "Series/CheckTimes.h"
 
@@ -64,14 +65,23 @@ bool readFvcomTimes(NetcdfFile& file, NetcdfTime& time)
   return true;
 }
 
-/// The days from a fixed one to a date, by the Gregorian calendar, with or without leap days (as in
-/// Hinnant, chrono-Compatible Low-Level Date Algorithms).
+/// The days from a fixed one to a date from the year 0 on, by the Gregorian calendar, with or
+/// without leap days (as in Hinnant, chrono-Compatible Low-Level Date Algorithms).
 std::int64_t daysOf(std::int64_t year, std::int64_t month, std::int64_t day, bool hasLeapDays)
 {
-  const std::int64_t y = month <= 2 ? year - 1 : year;
+  constexpr std::int64_t period = 400; // years; it keeps the numerators below positive
+  const std::int64_t y = period + (month <= 2 ? year - 1 : year);
   const std::int64_t dayOfYear = (153 * (month + (month > 2 ? -3 : 9)) + 2) / 5 + day - 1;
   const std::int64_t leapDays = y / 4 - y / 100 + y / 400;
   return 365 * y + (hasLeapDays ? leapDays : 0) + dayOfYear;
+}
+
+int daysOfMonth(int year, int month, bool hasLeapDays)
+{
+  constexpr int february = 2;
+  constexpr int july = 7;
+  const bool isLeapYear = hasLeapDays && year % 4 == 0 && (year % 100 != 0 || year % 400 == 0);
+  return month == february ? (isLeapYear ? 29 : 28) : 30 + (month + (month > july ? 1 : 0)) % 2;
 }
 
 /// Reads "2000-01-31_12:30:00" as seconds of its calendar; nothing if it is not so.
@@ -86,8 +96,8 @@ std::optional<double> secondsOf(const std::string& text, bool hasLeapDays)
   constexpr int parts = 6;
   if (std::sscanf(text.c_str(), "%5d-%2d-%2d%*1[_ T]%2d:%2d:%lf", &year, &month, &day, &hour,
         &minute, &second) != parts ||
-    year < 0 || month < 1 || month > 12 || day < 1 || day > 31 || hour < 0 || hour > 24 ||
-    minute < 0 || minute > 59 || !(second >= 0 && second < 61))
+    year < 0 || month < 1 || month > 12 || day < 1 || day > daysOfMonth(year, month, hasLeapDays) ||
+    hour < 0 || hour > 24 || minute < 0 || minute > 59 || !(second >= 0 && second < 61))
   {
     return std::nullopt;
   }
@@ -111,6 +121,12 @@ bool readMpasTimes(NetcdfFile& file, NetcdfTime& time)
     calendar = attribute.Name == "config_calendar_type" ? attribute.Text : calendar;
   }
   const bool hasLeapDays = calendar.find("noleap") == std::string::npos;
+  if (hasLeapDays && !calendar.empty() && calendar.find("gregorian") == std::string::npos)
+  {
+    throw IOError(file.path(),
+      "has dates of the calendar '" + shownText(calendar) +
+        "'; only those of gregorian and gregorian_noleap are read.");
+  }
   const std::string text = file.readText(*dates);
   const auto length = std::size_t(content.size(dates->Dimensions[1]));
   std::vector<double> values;
@@ -126,13 +142,14 @@ bool readMpasTimes(NetcdfFile& file, NetcdfTime& time)
   const double origin = values.front();
   std::transform(values.begin(), values.end(), values.begin(),
     [origin](double value) { return value - origin; });
-  constexpr std::size_t dateLength = 19;
-  std::string first = text.substr(0, dateLength);
+  constexpr std::size_t dateLength = 19; // with a year of four digits
+  std::string first = text.substr(0, text.find('-') + dateLength - 4);
   std::replace(first.begin(), first.end(), '_', ' ');
   time.Dimension = dates->Dimensions[0];
   time.Values = std::move(values);
   time.Units = "seconds since " + first;
-  time.Calendar = hasLeapDays ? "" : "noleap";
+  // The standard calendar of CF is Julian before 1582.
+  time.Calendar = hasLeapDays ? "proleptic_gregorian" : "noleap";
   return true;
 }
 

@@ -463,6 +463,8 @@ int runQuality(const CheckArguments& arguments)
   refuseIf(quality.RasterBounds && !isNpy, "--npy-bounds", "needs --size with an .npy file");
   refuseIf(isNpy && !quality.RasterBounds, "--size",
     "has an .npy file, which does not say where it lies; give --npy-bounds");
+  refuseIf(quality.LeastSize && quality.LargestSize && *quality.LeastSize > *quality.LargestSize,
+    "--min-size", "must not be above --max-size");
   quality.Points = arguments.Mesh.empty() ? "" : arguments.Points;
   quality.Mesh = arguments.Mesh.empty() ? arguments.Points : arguments.Mesh;
   quality.Constraints = arguments.Constraints;
@@ -522,10 +524,14 @@ void addSizeOptions(CLI::App& command, QualityArguments& quality, CLI::Option* a
 {
   CLI::Option* const size = command.add_option("--size", quality.Size,
     "With --quality: the length of edges: a number, or a raster. No triangle may be larger than "
-    "the "
-    "equilateral one with this edge");
-  size->check([](const std::string& text)
-    { return wholeNumber<double>(text) ? checkPositive(text) : std::string(); });
+    "the equilateral one with this edge");
+  size->check(
+    [](const std::string& text)
+    {
+      return text.empty()           ? "is empty; give a number or a raster"
+        : wholeNumber<double>(text) ? checkPositive(text)
+                                    : std::string();
+    });
   size->needs(angle);
   command.add_option("--min-size", quality.LeastSize, "As of 'tipp mesh': the smallest size")
     ->check(checkPositive)

@@ -162,9 +162,20 @@ void LargestSize::readRaster(const std::vector<double>& xy)
   const RasterGrid& grid = raster->grid();
   std::vector<double> sizes(std::size_t(grid.pixels()));
   raster->read({ 0, 0, grid.Columns, grid.Rows }, sizes.data());
+  for (const double size : sizes)
+  {
+    if (std::isfinite(size) && size <= 0)
+    {
+      throw IOError(path, fmt::format("has the size {:g}; sizes are above 0.", size));
+    }
+  }
   const Point2 first = grid.firstCentre();
   this->Pixels.emplace(std::move(sizes), std::size_t(grid.Columns),
     check::Position{ first.x, first.y }, check::Position{ grid.Pixel[0], grid.Pixel[1] });
+  if (std::isinf(this->Pixels->smallest()))
+  {
+    throw IOError(path, "has no size; give another raster.");
+  }
   double spacing = this->limited(this->Pixels->smallest()) / 2;
   check::Position low{ HUGE_VAL, HUGE_VAL };
   check::Position high{ -HUGE_VAL, -HUGE_VAL };
@@ -172,6 +183,11 @@ void LargestSize::readRaster(const std::vector<double>& xy)
   {
     low = { std::min(low.x, xy[i]), std::min(low.y, xy[i + 1]) };
     high = { std::max(high.x, xy[i]), std::max(high.y, xy[i + 1]) };
+  }
+  if (!(low.x <= gridPosition(grid.West, grid.Pixel[0], 2 * grid.Columns) && high.x >= grid.West &&
+        low.y <= grid.north() && high.y >= grid.South))
+  {
+    throw IOError(path, "lies outside of the mesh; give a raster in its reference system.");
   }
   if (this->Arguments.Geographic)
   {
@@ -234,6 +250,21 @@ CheckedMesh readRefined(const QualityArguments& arguments)
   mesh.XY = std::move(read.XY);
   mesh.Triangles = std::move(read.Triangles);
   return mesh;
+}
+
+/// Throws IOError if y are no latitudes though the arguments say so.
+void requireLatitudes(const QualityArguments& arguments, const std::vector<double>& xy)
+{
+  constexpr double pole = 90;
+  for (std::size_t i = 1; arguments.Geographic && i < xy.size(); i += 2)
+  {
+    if (std::fabs(xy[i]) > pole)
+    {
+      throw IOError(arguments.Mesh,
+        fmt::format(
+          "has a point with y = {:g}, which is no latitude; leave out --geographic.", xy[i]));
+    }
+  }
 }
 
 void printQuality(const QualityReport& report)
@@ -299,6 +330,7 @@ int checkQualityOfFiles(const QualityArguments& arguments)
   std::optional<LargestSize> size;
   if (!arguments.Size.empty())
   {
+    requireLatitudes(arguments, mesh.XY);
     size.emplace(arguments, mesh.XY);
   }
   if (arguments.MaxArea || size)

@@ -428,15 +428,21 @@ TEST_F(NetcdfConventions, MpasDatesBecomeSecondsOfItsCalendar)
   auto series = openMeshSeries(write("gregorian", "2004-03-01_00:00:30"));
   EXPECT_EQ((Doubles{ 0, 1.5 * 86400 + 30 }), series->Times);
   EXPECT_EQ("seconds since 2004-02-28 12:00:00", series->TimeUnits);
-  EXPECT_EQ("", series->Calendar);
+  EXPECT_EQ("proleptic_gregorian", series->Calendar);
   series.reset(); // which has the file open
   series = openMeshSeries(write("gregorian_noleap", "2004-03-01_00:00:30"));
   EXPECT_EQ((Doubles{ 0, 0.5 * 86400 + 30 }), series->Times);
   EXPECT_EQ("noleap", series->Calendar);
   series.reset();
-  series = openMeshSeries(write("gregorian", "later"));
-  EXPECT_EQ((Doubles{ 0, 1 }), series->Times);
-  EXPECT_EQ("time", series->LeftOut.at(0).Name);
+  for (const char* const last : { "later", "2004-04-31_00:00:00" })
+  {
+    series = openMeshSeries(write("gregorian", last));
+    EXPECT_EQ((Doubles{ 0, 1 }), series->Times);
+    EXPECT_EQ("time", series->LeftOut.at(0).Name);
+    series.reset();
+  }
+  const std::string path = write("360day", "2004-03-01_00:00:30");
+  expectIOError(path, "only those of gregorian", [&] { openMeshSeries(path); });
 }
 
 TEST_F(NetcdfConventions, NodesAreReadAsPointsWhateverTheCells)

@@ -140,6 +140,26 @@ TEST_F(TippQuality, ComparesWithARasterOfSizes)
   this->expect(1, "above the limit on areas", against, { "sized.vtu" });
 }
 
+TEST_F(TippQuality, RefusesSizesThatProveNothing)
+{
+  const Words here{ "--quality", "20", "--size", "sizes.npy", "--npy-bounds", "0", "4", "0", "4" };
+  this->writeNpy("sizes.npy", "(1, 2)", { std::nan(""), std::nan("") });
+  this->expect(1, "has no size", here);
+  this->writeNpy("sizes.npy", "(1, 2)", { 9, -9999 });
+  this->expect(1, "has the size -9999", here);
+  this->writeNpy("sizes.npy", "(1, 2)", { 9, 9 });
+  this->expect(1, "lies outside of the mesh",
+    { "--quality", "20", "--size", "sizes.npy", "--npy-bounds", "500", "504", "0", "4" });
+  this->expect(2, "is empty", { "--quality", "20", "--size", "" });
+  this->expect(2, "must not be above --max-size",
+    { "--quality", "20", "--size", "9", "--min-size", "5", "--max-size", "1" });
+  this->Folder.file("far.vtk",
+    "# vtk DataFile Version 3.0\nmesh\nASCII\nDATASET POLYDATA\nPOINTS 3 double\n0 0 0 4 0 0 0 "
+    "100 0\nPOLYGONS 1 4\n3 0 1 2\n");
+  this->expect(
+    1, "is no latitude", { "--quality", "1", "--size", "9", "--geographic" }, { "far.vtk" });
+}
+
 TEST_F(TippQuality, SizesOfNpyFilesNeedBounds)
 {
   this->writeNpy("sizes.npy", "(1, 1)", { 3 });
