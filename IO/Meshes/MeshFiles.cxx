@@ -261,6 +261,7 @@ UgridContent ugridOf(
   UgridContent content;
   content.Nodes = std::int64_t(points.size());
   content.Triangles = std::int64_t(triangles.size());
+  content.Crs = options.Crs;
   content.Node = [&points](std::int64_t node) {
     return Point2{ points.XY[2 * std::size_t(node)], points.XY[2 * std::size_t(node) + 1] };
   };

@@ -76,6 +76,8 @@ struct MeshOptions
   /// Edges of the mesh as pairs of point ids, which Triangle's .poly lists. Empty: no such file.
   std::vector<std::array<std::int64_t, 2>> Segments;
   std::vector<Point2> Holes; ///< points in holes, for the same file
+  /// The reference system that .nc states, by a text that GDAL understands. Empty: none.
+  std::string Crs;
   /// What may be replaced, as for PendingFile.
   std::optional<PathState> Before;
   /// Called once all is written under a temporary name; returning true discards it.

@@ -24,6 +24,7 @@
 #include "Partitioning/MeshTiling.h"
 #include "Points/ReadPoints.h"
 #include "Ranks/Communicator.h"
+#include "Raster/RasterFile.h"
 #include "Triangulation/ResolveDuplicates.h"
 
 #include <CLI/CLI.hpp>
@@ -119,6 +120,28 @@ PointTable readPointsFor(const DelaunayArguments& arguments)
   return points;
 }
 
+/// Returns the reference system that the output states: that of --crs or of the files. Of the
+/// formats, UGRID states one.
+std::string crsOf(const DelaunayArguments& arguments, const PointTable& points)
+{
+  if (arguments.OutputIs != Opener::Netcdf || !arguments.Columns.Crs.empty() || points.Crs.empty())
+  {
+    return arguments.OutputIs == Opener::Netcdf ? arguments.Columns.Crs : "";
+  }
+  try
+  {
+    requireCrs(points.Crs);
+    return points.Crs;
+  }
+  catch (const IOError& error)
+  {
+    fmt::print(stderr,
+      "tipp: warning: {} The mesh states no reference system; --crs EPSG:CODE names one.\n",
+      error.what());
+    return "";
+  }
+}
+
 /// Writes the output. `before`: from requireOutputs(). Returns false, without a file, if the user
 /// interrupted it. Throws IOError.
 bool writeResult(const DelaunayArguments& arguments, const PointTable& points,
@@ -128,6 +151,7 @@ bool writeResult(const DelaunayArguments& arguments, const PointTable& points,
   options.Before = before;
   options.Aborted = isInterrupted;
   options.Neighbors = arguments.Neighbors;
+  options.Crs = crsOf(arguments, points);
   if (arguments.Inputs.size() == 1 && isOpenedBy(arguments.Inputs.front(), Opener::Adcirc))
   {
     if (points.ThinnedOut == 0)
@@ -171,6 +195,10 @@ PathState requireOutputs(const DelaunayArguments& arguments)
   inputs.push_back(arguments.Constraints.Lines);
   inputs.push_back(arguments.Constraints.Boundary);
   requireApartFromOthers(arguments.Output, inputs);
+  if (arguments.OutputIs == Opener::Netcdf && !arguments.Columns.Crs.empty())
+  {
+    requireCrs(arguments.Columns.Crs);
+  }
   return requireWritable(arguments.Output, arguments.Statistics, inputs);
 }
 

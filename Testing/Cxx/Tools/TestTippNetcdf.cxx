@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -186,4 +187,19 @@ TEST_F(TippUgrid, RefusesTetrahedraAndNamesThatAreTaken)
   EXPECT_EQ(1, taken.ExitCode);
   EXPECT_NE(std::string::npos, taken.Err.find("the name 'time' twice")) << taken.Err;
   EXPECT_FALSE(this->exists("mesh.nc"));
+}
+
+TEST_F(TippUgrid, OfPointsStatesTheirReferenceSystem)
+{
+  this->Folder.file("points.csv", "x,y\n5,50\n6,50\n5,51\n");
+  const Outcome outcome =
+    runTipp(this->Folder, { "delaunay", "points.csv", "-o", "points.nc", "--crs", "EPSG:4326" });
+  ASSERT_EQ(0, outcome.ExitCode) << outcome.Err;
+  NetcdfFile file(this->Folder.path("points.nc"));
+  ASSERT_NE(nullptr, file.content().find("crs"));
+  EXPECT_EQ(0u, file.content().find("crs")->text("crs_wkt").find("GEOGCS"));
+  const Outcome unknown =
+    runTipp(this->Folder, { "delaunay", "points.csv", "-o", "unknown.nc", "--crs", "EPSG:99999" });
+  EXPECT_EQ(1, unknown.ExitCode);
+  EXPECT_FALSE(std::filesystem::exists(this->Folder.path("unknown.nc")));
 }
