@@ -30,13 +30,13 @@ struct Digits
     *end = '\0';
     char* const mark = std::find(shortest.data(), end, 'e');
     char* const point = std::find(shortest.data(), mark, '.');
-    int places = int(point - shortest.data()); // of the first character before the point
+    int exponent = int(point - shortest.data()); // of the first character
     for (const char* at = shortest.data(); at < mark; ++at)
     {
-      places -= at == point ? 0 : 1;
+      exponent -= at == point ? 0 : 1;
       if (*at != '.' && (this->Count > 0 || *at != '0'))
       {
-        this->Exponent = this->Count == 0 ? places : this->Exponent;
+        this->Exponent = this->Count == 0 ? exponent : this->Exponent;
         this->Text[std::size_t(this->Count++)] = *at;
       }
     }

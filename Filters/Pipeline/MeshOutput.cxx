@@ -210,15 +210,16 @@ public:
     return corners;
   }
 
-  /// Sets the points of `output`, their data, global ids and, with ghosts, vtkGhostType. `places`:
-  /// by point of the part: its index in the output; -1: it is left out. Empty: all are output.
-  void fillPoints(
-    const PointRows& rows, vtkPointSet* output, const std::vector<std::int64_t>& places = {}) const
+  /// Sets the points of `output`, their data, global ids and, with ghosts, vtkGhostType.
+  /// `newIndices`: by point of the part: its index in the output; -1: it is left out. Empty: all
+  /// are output.
+  void fillPoints(const PointRows& rows, vtkPointSet* output,
+    const std::vector<std::int64_t>& newIndices = {}) const
   {
-    const bool areAll = places.empty();
+    const bool areAll = newIndices.empty();
     const vtkIdType count = areAll ? vtkIdType(this->count())
-                                   : vtkIdType(std::count_if(places.begin(), places.end(),
-                                       [](std::int64_t place) { return place >= 0; }));
+                                   : vtkIdType(std::count_if(newIndices.begin(), newIndices.end(),
+                                       [](std::int64_t newIndex) { return newIndex >= 0; }));
     vtkPointData* const data = output->GetPointData();
     vtkNew<vtkPoints> points;
     points->SetDataType(rows.areDoubles() ? VTK_DOUBLE : VTK_FLOAT);
@@ -242,7 +243,7 @@ public:
     this->forEachPoint(
       [&](std::int64_t index, const auto& tuples, std::size_t at, bool isOwn)
       {
-        const std::int64_t to = areAll ? index : places[std::size_t(index)];
+        const std::int64_t to = areAll ? index : newIndices[std::size_t(index)];
         if (to < 0)
         {
           return;
@@ -541,7 +542,7 @@ AlphaShape<std::int32_t> fillAlphaPoints(Communicator& ranks, const Mesh& mine, 
   AlphaShape<std::int32_t> shape = size == 3
     ? part.template alphaShare<3>(options.Alpha, isIsolated)
     : part.template alphaShare<4>(options.Alpha, isIsolated);
-  std::vector<std::int64_t> places(std::size_t(part.count()), -1);
+  std::vector<std::int64_t> newIndices(std::size_t(part.count()), -1);
   for (const auto& [list, isWanted] : { std::make_pair(&shape.Tetrahedra, options.Tetrahedra),
          std::make_pair(&shape.Triangles, options.Triangles),
          std::make_pair(&shape.Lines, options.Lines),
@@ -549,20 +550,20 @@ AlphaShape<std::int32_t> fillAlphaPoints(Communicator& ranks, const Mesh& mine, 
   {
     list->truncate(isWanted ? list->size() : 0);
     std::for_each(list->begin(), list->end(),
-      [&places](std::int32_t point) { places[std::size_t(point)] = 0; });
+      [&newIndices](std::int32_t point) { newIndices[std::size_t(point)] = 0; });
   }
   std::int64_t used = 0;
-  for (std::int64_t& place : places)
+  for (std::int64_t& newIndex : newIndices)
   {
-    place = place < 0 ? -1 : used++;
+    newIndex = newIndex < 0 ? -1 : used++;
   }
   for (Buffer<std::int32_t>* const list :
     { &shape.Tetrahedra, &shape.Triangles, &shape.Lines, &shape.Vertices })
   {
     std::transform(list->begin(), list->end(), list->begin(),
-      [&places](std::int32_t point) { return std::int32_t(places[std::size_t(point)]); });
+      [&newIndices](std::int32_t point) { return std::int32_t(newIndices[std::size_t(point)]); });
   }
-  part.fillPoints(rows, output, places);
+  part.fillPoints(rows, output, newIndices);
   return shape;
 }
 
