@@ -4,6 +4,7 @@
 #include "Files/IOError.h"
 #include "Files/RawValues.h"
 #include "Flat/FlatMesh.h"
+#include "Series/VariableNames.h"
 
 #include <algorithm>
 #include <utility>
@@ -75,7 +76,7 @@ public:
     if (this->Mesh.Points.Components == 3)
     {
       RawArray points = this->Mesh.Points;
-      points.Name = "elevation";
+      points.Name = heightName(this->Variables);
       this->Sources.push_back({ { points }, 2 });
       this->Variables.push_back({ points.Name, "", "", points.Type, false, false });
     }
@@ -164,11 +165,10 @@ private:
     const RawArray& first = steps.front();
     for (int i = 0; i < first.Components; ++i)
     {
-      std::string name = first.Components == 1 ? first.Name : first.Name + "_" + std::to_string(i);
-      const bool isTaken = std::any_of(this->Variables.begin(), this->Variables.end(),
-        [&name](const SeriesVariable& known) { return known.Name == name; });
-      name += isTaken ? "_cells" : "";
-      this->Variables.push_back({ name, "", "", first.Type, onCells, varies });
+      const std::string name =
+        first.Components == 1 ? first.Name : first.Name + "_" + std::to_string(i);
+      this->Variables.push_back(
+        { freeName(this->Variables, name), "", "", first.Type, onCells, varies });
       this->Sources.push_back({ steps, i });
     }
   }

@@ -2,8 +2,8 @@
 #include "Flat/FlatUgrid.h"
 
 #include "Files/IOError.h"
+#include "Series/VariableNames.h"
 
-#include <algorithm>
 #include <cstring>
 #include <memory>
 #include <vector>
@@ -51,11 +51,10 @@ void add(UgridContent& to, const FlatArray& array, bool onCells)
 {
   for (int i = 0; i < array.Components; ++i)
   {
-    std::string name = array.Components == 1 ? array.Name : array.Name + "_" + std::to_string(i);
-    const bool isTaken = std::any_of(to.Arrays.begin(), to.Arrays.end(),
-      [&name](const UgridArray& other) { return other.Name == name; });
-    name += isTaken ? "_cells" : "";
-    to.Arrays.push_back({ name, "", "", array.Type, onCells, array.Steps > 0, readerOf(array, i) });
+    const std::string name =
+      array.Components == 1 ? array.Name : array.Name + "_" + std::to_string(i);
+    to.Arrays.push_back({ freeName(to.Arrays, name), "", "", array.Type, onCells, array.Steps > 0,
+      readerOf(array, i) });
   }
 }
 
@@ -90,12 +89,10 @@ UgridContent ugridOf(const FlatContent& content, const std::string& source)
   {
     add(result, array, false);
   }
-  const bool hasElevation = std::any_of(result.Arrays.begin(), result.Arrays.end(),
-    [](const UgridArray& array) { return array.Name == "elevation"; });
-  if (dimension == 3 && !hasElevation)
+  if (dimension == 3)
   {
-    result.Arrays.push_back(
-      { "elevation", "", "", points.Type, false, false, readerOf(content.Points, 2) });
+    result.Arrays.push_back({ heightName(result.Arrays), "", "", points.Type, false, false,
+      readerOf(content.Points, 2) });
   }
   for (const FlatArray& array : content.CellData)
   {

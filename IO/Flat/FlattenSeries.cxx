@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Flat/FlatMesh.h"
 
-#include "Series/MeshSeries.h"
+#include "Series/StepReader.h"
 
-#include <algorithm>
-#include <cmath>
-#include <cstring>
 #include <memory>
 #include <string>
 #include <utility>
@@ -25,73 +22,6 @@ FlatArray ownedArray(std::string name, Scalar type, std::vector<T> values, int c
   return { std::move(name), type, components, tuples, 0, kept->data(), kept };
 }
 
-/// Whole numbers can have no NaN, so they are written as floats that represent all of them.
-Scalar storedType(Scalar type)
-{
-  const bool fitsFloat = type == Scalar::Float32 || type == Scalar::Int8 || type == Scalar::UInt8 ||
-    type == Scalar::Int16 || type == Scalar::UInt16;
-  return fitsFloat ? Scalar::Float32 : Scalar::Float64;
-}
-
-/// Reads a variable, or all components of a vector, step by step, in the type to be written.
-class StepReader
-{
-public:
-  StepReader(MeshSeries& series, std::size_t first, int components, Scalar type)
-    : Series(series)
-    , First(first)
-    , Components(std::size_t(components))
-    , Type(type)
-  {
-  }
-
-  const void* read(std::int64_t step)
-  {
-    for (std::size_t c = 0; c < this->Components; ++c)
-    {
-      this->Series.read(this->First + c, std::size_t(step), this->Values);
-      this->mark(this->Series.Variables[this->First + c].Mark);
-      if (this->Components == 1 && this->Type == Scalar::Float64)
-      {
-        return this->Values.data();
-      }
-      this->Bytes.resize(this->Values.size() * this->Components * scalarSize(this->Type));
-      this->Type == Scalar::Float32 ? this->put<float>(c) : this->put<double>(c);
-    }
-    return this->Bytes.data();
-  }
-
-private:
-  void mark(double mark)
-  {
-    if (!std::isnan(mark))
-    {
-      std::replace_if(
-        this->Values.begin(), this->Values.end(), [](double value) { return std::isnan(value); },
-        mark);
-    }
-  }
-
-  template <typename T>
-  void put(std::size_t component)
-  {
-    char* to = this->Bytes.data() + component * sizeof(T);
-    for (const double value : this->Values)
-    {
-      const auto stored = T(value);
-      std::memcpy(to, &stored, sizeof stored);
-      to += this->Components * sizeof(T);
-    }
-  }
-
-  MeshSeries& Series;
-  const std::size_t First;
-  const std::size_t Components;
-  const Scalar Type;
-  std::vector<double> Values;
-  std::vector<char> Bytes;
-};
-
 /// The array of a variable, or of the vector whose components begin with it.
 FlatArray arrayOf(MeshSeries& series, std::size_t first, std::int64_t tuples)
 {
@@ -104,12 +34,12 @@ FlatArray arrayOf(MeshSeries& series, std::size_t first, std::int64_t tuples)
   }
   FlatArray array;
   array.Name = variable.Vector.empty() ? variable.Name : variable.Vector;
-  array.Type = storedType(variable.Type);
   array.Components = components;
   array.Tuples = tuples;
   array.Steps = variable.Varies ? std::int64_t(series.Times.size()) : 0;
-  const auto reader = std::make_shared<StepReader>(series, first, components, array.Type);
-  array.StepValues = [reader](std::int64_t step) { return reader->read(step); };
+  const auto reader = std::make_shared<StepReader>(series, first, components, true);
+  array.Type = reader->type();
+  array.StepValues = [reader](std::int64_t step) { return reader->read(std::size_t(step)); };
   return array;
 }
 

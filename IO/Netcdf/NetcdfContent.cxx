@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Netcdf/NetcdfContent.h"
 
+#include "Files/TextFile.h"
+
 #include <algorithm>
 
 namespace tipp
@@ -22,15 +24,23 @@ std::string NetcdfVariable::text(const std::string& name) const
 std::optional<double> NetcdfVariable::number(const std::string& name) const
 {
   const NetcdfAttribute* const attribute = this->find(name);
-  return attribute && !attribute->Numbers.empty() ? std::make_optional(attribute->Numbers.front())
-                                                  : std::nullopt;
+  if (!attribute)
+  {
+    return std::nullopt;
+  }
+  if (!attribute->Numbers.empty())
+  {
+    return attribute->Numbers.front();
+  }
+  double value = 0;
+  return parseNumber(attribute->Text, value) ? std::make_optional(value) : std::nullopt;
 }
 
 Scalar NetcdfVariable::unpackedType() const
 {
   const NetcdfAttribute* const scale = this->find("scale_factor");
   const NetcdfAttribute* const packing = scale ? scale : this->find("add_offset");
-  if (packing && !packing->Numbers.empty())
+  if (packing)
   {
     return packing->IsFloat ? Scalar::Float32 : Scalar::Float64;
   }

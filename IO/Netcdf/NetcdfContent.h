@@ -42,7 +42,7 @@ struct VTKTIPPIO_EXPORT NetcdfVariable
   const NetcdfAttribute* find(const std::string& name) const;
   /// Returns the text of an attribute; empty if there is none.
   std::string text(const std::string& name) const;
-  /// Returns the first number of an attribute, if there is one.
+  /// Returns the first number of an attribute, also one written as text, if there is one.
   std::optional<double> number(const std::string& name) const;
   /// The type of the values after scale_factor and add_offset.
   Scalar unpackedType() const;

@@ -205,6 +205,15 @@ std::size_t NetcdfFile::requireNumbers(const NetcdfVariable& variable, const Net
   {
     throw IOError(this->Path, "has '" + variable.Name + "' as text; it should be numbers.");
   }
+  for (const char* const factor : { "scale_factor", "add_offset" })
+  {
+    if (variable.find(factor) && !variable.number(factor))
+    {
+      throw IOError(this->Path,
+        "gives '" + variable.Name + "' the " + factor + " '" + shownText(variable.text(factor)) +
+          "', which is no number; correct the attribute.");
+    }
+  }
   return this->checkPart(variable, part);
 }
 

@@ -151,6 +151,11 @@ void NetcdfOutput::fillWithNaN(int variable, Scalar type) const
     nc_put_att_double(this->File, variable, "_FillValue", netcdfTypeOf(type), 1, &missing));
 }
 
+void NetcdfOutput::withoutFill(int variable) const
+{
+  this->check(nc_def_var_fill(this->File, variable, NC_NOFILL, nullptr));
+}
+
 void NetcdfOutput::endDefinitions() const
 {
   this->check(nc_enddef(this->File));

@@ -43,6 +43,8 @@ public:
   void compress(int variable, const std::vector<std::size_t>& chunk) const;
   /// The fill value of a variable of floating-point numbers becomes NaN.
   void fillWithNaN(int variable, Scalar type) const;
+  /// All values of a variable are values, also the one that stands for missing ones elsewhere.
+  void withoutFill(int variable) const;
   void endDefinitions() const;
 
   /// Writes a part of a variable, in its type.

@@ -5,8 +5,8 @@
 #include "Files/RawValues.h"
 #include "Partitioned/PartitionedMesh.h"
 #include "Partitioning/FlattenPieces.h"
+#include "Series/VariableNames.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -39,11 +39,9 @@ public:
     {
       this->add(array, true);
     }
-    if (this->isFree("elevation"))
-    {
-      this->Sources.push_back({ &this->Content.Points, 2 });
-      this->Variables.push_back({ "elevation", "", "", this->Content.Points.Type, false, false });
-    }
+    this->Sources.push_back({ &this->Content.Points, 2 });
+    this->Variables.push_back(
+      { heightName(this->Variables), "", "", this->Content.Points.Type, false, false });
   }
 
   SeriesMesh readMesh() override
@@ -96,19 +94,14 @@ private:
     return values;
   }
 
-  bool isFree(const std::string& name) const
-  {
-    return std::none_of(this->Variables.begin(), this->Variables.end(),
-      [&name](const SeriesVariable& known) { return known.Name == name; });
-  }
-
   void add(const FlatArray& array, bool onCells)
   {
     for (int i = 0; i < array.Components; ++i)
     {
-      std::string name = array.Components == 1 ? array.Name : array.Name + "_" + std::to_string(i);
-      name += this->isFree(name) ? "" : "_cells";
-      this->Variables.push_back({ name, "", "", array.Type, onCells, array.Steps > 0 });
+      const std::string name =
+        array.Components == 1 ? array.Name : array.Name + "_" + std::to_string(i);
+      this->Variables.push_back(
+        { freeName(this->Variables, name), "", "", array.Type, onCells, array.Steps > 0 });
       this->Sources.push_back({ &array, i });
     }
   }

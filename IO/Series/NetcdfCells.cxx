@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Files/IOError.h"
+#include "Files/TextFile.h"
 #include "Parallel/Poll.h"
 #include "Series/NetcdfMesh.h"
 
@@ -205,7 +206,13 @@ private:
   {
     if (const auto stated = this->Mesh.Corners->number("start_index"))
     {
-      return *stated == 1 ? 1 : 0;
+      if (*stated != 0 && *stated != 1)
+      {
+        throw IOError(this->File.path(),
+          "states that its nodes are counted from " + shortText(*stated) +
+            " (start_index); only 0 and 1 are read.");
+      }
+      return std::int64_t(*stated);
     }
     std::int64_t least = this->Nodes;
     std::int64_t most = 0;

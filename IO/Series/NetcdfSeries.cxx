@@ -2,6 +2,7 @@
 #include "Series/NetcdfSeries.h"
 
 #include "Files/IOError.h"
+#include "Files/TextFile.h"
 #include "Netcdf/NetcdfFile.h"
 #include "Series/CellSeries.h"
 #include "Series/LocatedVariables.h"
@@ -180,7 +181,10 @@ private:
     this->LeftOut.insert(this->LeftOut.end(), located.LeftOut.begin(), located.LeftOut.end());
     if (time.AreNumbers && varies)
     {
-      this->LeftOut.push_back({ "time", "has no values, so the steps are counted from 0" });
+      const std::string problem = time.UnreadDate.empty()
+        ? "has no values"
+        : "has the date '" + shownText(time.UnreadDate) + "', not one such as 2000-01-31_12:30:00";
+      this->LeftOut.push_back({ "time", problem + ", so the steps are counted from 0" });
     }
   }
 

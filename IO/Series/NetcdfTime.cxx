@@ -135,6 +135,7 @@ bool readMpasTimes(NetcdfFile& file, NetcdfTime& time)
     const std::optional<double> value = secondsOf(text.substr(at, length), hasLeapDays);
     if (!value)
     {
+      time.UnreadDate = text.substr(at, length);
       return false;
     }
     values.push_back(*value);

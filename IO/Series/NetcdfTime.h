@@ -18,6 +18,7 @@ struct NetcdfTime
   std::string Units;       ///< such as "seconds since 2008-09-01"
   std::string Calendar;    ///< empty: the standard one
   bool AreNumbers = false; ///< the file has no times: the values count the steps from 0
+  std::string UnreadDate;  ///< a text that should be the time of a step
 };
 
 /// Finds and reads the times: a variable of one dimension with the standard name time, the axis T,

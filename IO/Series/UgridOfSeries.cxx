@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Series/StepReader.h"
 #include "Series/WriteUgrid.h"
 
 #include <memory>
@@ -6,48 +7,6 @@
 
 namespace tipp
 {
-namespace
-{
-
-/// Whole numbers may be missing, too, so values are floats that represent all of them.
-Scalar floatFor(Scalar type)
-{
-  const bool fits = type == Scalar::Float32 || type == Scalar::Int8 || type == Scalar::UInt8 ||
-    type == Scalar::Int16 || type == Scalar::UInt16;
-  return fits ? Scalar::Float32 : Scalar::Float64;
-}
-
-/// Reads the values of a variable in the type to be written.
-class ValueReader
-{
-public:
-  ValueReader(MeshSeries& series, std::size_t variable)
-    : Series(series)
-    , Variable(variable)
-    , Type(floatFor(series.Variables[variable].Type))
-  {
-  }
-
-  const void* read(std::size_t step)
-  {
-    this->Series.read(this->Variable, step, this->Values);
-    if (this->Type == Scalar::Float64)
-    {
-      return this->Values.data();
-    }
-    this->Floats.assign(this->Values.begin(), this->Values.end());
-    return this->Floats.data();
-  }
-
-private:
-  MeshSeries& Series;
-  const std::size_t Variable;
-  const Scalar Type;
-  std::vector<double> Values;
-  std::vector<float> Floats;
-};
-
-} // namespace
 
 UgridContent ugridOf(MeshSeries& series)
 {
@@ -63,9 +22,9 @@ UgridContent ugridOf(MeshSeries& series)
   for (std::size_t i = 0; i < series.Variables.size(); ++i)
   {
     const SeriesVariable& variable = series.Variables[i];
-    const auto reader = std::make_shared<ValueReader>(series, i);
+    const auto reader = std::make_shared<StepReader>(series, i, 1, false);
     content.Arrays.push_back(
-      { variable.Name, variable.LongName, variable.Units, floatFor(variable.Type), variable.OnCells,
+      { variable.Name, variable.LongName, variable.Units, reader->type(), variable.OnCells,
         variable.Varies, [reader](std::size_t step) { return reader->read(step); } });
   }
   if (!mesh->OriginalCells.empty())

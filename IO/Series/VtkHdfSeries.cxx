@@ -8,6 +8,7 @@
 #include "Series/CellSeries.h"
 #include "Series/CheckTimes.h"
 #include "Series/ModelSeries.h"
+#include "Series/VariableNames.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -135,18 +136,17 @@ private:
     {
       for (std::int64_t i = 0; i < array.Components && array.Name != ghosts; ++i)
       {
-        std::string name =
+        const std::string name =
           array.Components == 1 ? array.Name : array.Name + "_" + std::to_string(i);
-        const bool isTaken = std::any_of(this->Variables.begin(), this->Variables.end(),
-          [&name](const SeriesVariable& other) { return other.Name == name; });
-        name += isTaken ? "_cells" : "";
-        SeriesVariable variable{ name, "", "", array.Type, array.OnCells, !this->Times.empty() };
+        SeriesVariable variable{ freeName(this->Variables, name), "", "", array.Type, array.OnCells,
+          !this->Times.empty() };
         variable.Vector = array.Components == 1 ? "" : array.Name;
         this->Variables.push_back(std::move(variable));
         this->Sources.push_back({ array, i });
       }
     }
-    this->Variables.push_back({ "elevation", "", "", Scalar::Float64, false, false });
+    this->Variables.push_back(
+      { heightName(this->Variables), "", "", Scalar::Float64, false, false });
     this->Sources.push_back({ std::nullopt, 2 });
   }
 

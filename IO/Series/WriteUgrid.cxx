@@ -4,11 +4,15 @@
 #include "Crs/ReferenceSystem.h"
 #include "Files/IOError.h"
 #include "Netcdf/NetcdfOutput.h"
+#include "Predicates/Vectors.h"
 #include "Series/NetcdfCrs.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
 #include <set>
+#include <utility>
 
 namespace tipp
 {
@@ -37,13 +41,19 @@ public:
     , Output(path, before, false, "rename it.")
     , Wkt(content.Crs.empty() ? "" : wkt1Of(content.Crs, true))
   {
+    if (content.Triangles == 0)
+    {
+      throw IOError(path, "would have no triangles, and a mesh by UGRID needs one.");
+    }
     std::set<std::string> names = { "mesh2d", "mesh2d_node_x", "mesh2d_node_y", "mesh2d_face_nodes",
       "time", "crs" };
     for (const UgridArray& array : content.Arrays)
     {
       if (!names.insert(validName(array.Name)).second)
       {
-        throw IOError(path, "would have the name '" + array.Name + "' twice; rename an array.");
+        throw IOError(path,
+          "needs another name for the array '" + array.Name +
+            "', which the file's mesh, time or reference system or another array has; rename it.");
       }
     }
   }
@@ -145,6 +155,10 @@ private:
     {
       this->Output.fillWithNaN(variable, array.Type);
     }
+    else
+    {
+      this->Output.withoutFill(variable);
+    }
     this->Output.setText(variable, "mesh", "mesh2d");
     this->Output.setText(variable, "location", array.OnCells ? "face" : "node");
     this->Output.setText(variable, "long_name", array.LongName);
@@ -168,6 +182,12 @@ private:
       for (std::int64_t node = begin; node < end; ++node)
       {
         const Point2 p = this->Content.Node(node);
+        if (!std::isfinite(p.x) || !std::isfinite(p.y))
+        {
+          throw IOError(this->Content.Source,
+            "has no finite coordinates at point " + std::to_string(node) +
+              " (from 0), and a mesh by UGRID needs them; remove the point.");
+        }
         x.push_back(p.x);
         y.push_back(p.y);
       }
@@ -176,6 +196,23 @@ private:
     }
     this->CornerType == Scalar::Int32 ? this->writeCorners<std::int32_t>()
                                       : this->writeCorners<std::int64_t>();
+  }
+
+  /// The corners of a triangle, counter-clockwise.
+  std::array<std::int64_t, 3> cornersOf(std::int64_t triangle) const
+  {
+    std::array<std::int64_t, 3> corners{};
+    std::array<Point2, 3> p{};
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      corners[i] = this->Content.Corner(triangle, int(i));
+      p[i] = this->Content.Node(corners[i]);
+    }
+    if (cross(p[1] - p[0], p[2] - p[0]) < 0)
+    {
+      std::swap(corners[1], corners[2]);
+    }
+    return corners;
   }
 
   template <typename Id>
@@ -188,9 +225,9 @@ private:
       corners.clear();
       for (std::int64_t triangle = begin; triangle < end; ++triangle)
       {
-        for (int corner = 0; corner < 3; ++corner)
+        for (const std::int64_t corner : this->cornersOf(triangle))
         {
-          corners.push_back(Id(this->Content.Corner(triangle, corner)));
+          corners.push_back(Id(corner));
         }
       }
       this->Output.write(

@@ -31,7 +31,7 @@ struct UgridArray
   std::function<const void*(std::size_t step)> Values;
 };
 
-/// A mesh of triangles in the plane to be written.
+/// A mesh of triangles in the plane to be written. Clockwise triangles are turned.
 struct UgridContent
 {
   std::int64_t Nodes = 0;

@@ -607,6 +607,7 @@ bool writeMade(const MeshArguments& arguments, const MadeMesh& made, const PathS
   options.Regions = made.Regions;
   options.Boundaries = made.Boundaries.Lists;
   options.Segments = made.Segments;
+  options.Crs = arguments.Sizes.Geographic ? "EPSG:4326" : "";
   if (arguments.OutputIs == Opener::Triangle)
   {
     options.Holes = holesOf(made);

@@ -45,6 +45,11 @@ std::string checkSteps(const std::string& text)
 {
   const std::vector<std::string_view> parts = partsOf(text);
   const bool isRange = parts.size() <= 3 && std::all_of(parts.begin(), parts.end(), isPart);
+  std::int64_t stride = 1;
+  if (isRange && parts.size() == 3 && parseInteger(parts[2], stride) && stride == 0)
+  {
+    return "the stride of '" + text + "' must be at least 1";
+  }
   return text == "all" || isRange
     ? ""
     : "'" + text + "' is neither a number of a step, all nor FIRST:LAST:STRIDE, such as 0:99:10";
@@ -68,7 +73,7 @@ std::vector<std::size_t> parseSteps(
       return { 0 };
     }
   }
-  if (last >= std::int64_t(count) || first > last || stride < 1)
+  if (last >= std::int64_t(count) || first > last)
   {
     throw IOError(path,
       "has no time step " + (text.empty() ? "0" : text) + "; there are " + std::to_string(count) +

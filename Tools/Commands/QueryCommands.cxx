@@ -103,6 +103,7 @@ std::unique_ptr<ResidentMesh> openQueryMesh(const QueryMeshArguments& arguments)
   {
     return std::make_unique<ResidentMesh>(arguments.Path, options);
   }
+  parseSteps(arguments.Step, 0, arguments.Path); // throws for any but 0
   try
   {
     return std::make_unique<ResidentMesh>(readVtkPart(arguments.Path, arguments.Threads), options);

@@ -3,6 +3,7 @@
 #include "Models/ModelMesh.h"
 #include "NetcdfWriter.h"
 #include "Series/MeshSeries.h"
+#include "Series/WriteUgrid.h"
 #include "TemporaryFolder.h"
 
 #include <gtest/gtest.h>
@@ -439,6 +440,7 @@ TEST_F(NetcdfConventions, MpasDatesBecomeSecondsOfItsCalendar)
     series = openMeshSeries(write("gregorian", last));
     EXPECT_EQ((Doubles{ 0, 1 }), series->Times);
     EXPECT_EQ("time", series->LeftOut.at(0).Name);
+    EXPECT_EQ(0U, series->LeftOut.at(0).Reason.find("has the date '" + std::string(last)));
     series.reset();
   }
   const std::string path = write("360day", "2004-03-01_00:00:30");
@@ -482,6 +484,45 @@ TEST_F(NetcdfConventions, CornersThatAreNoNodesAreNamed)
   NetcdfWriter::check(nc_close(file));
   expectIOError(this->path("u.nc"), "cell 1 (from 0) names node 5, but there are 5 nodes",
     [&] { openMeshSeries(this->path("u.nc"))->readMesh(); });
+}
+
+TEST_F(NetcdfConventions, AStartIndexOtherThanZeroOrOneIsRefused)
+{
+  this->writeUgrid(this->path("u.nc"), 0, false, true);
+  int file = 0;
+  int corners = 0;
+  NetcdfWriter::check(nc_open(this->path("u.nc").c_str(), NC_WRITE, &file));
+  NetcdfWriter::check(nc_inq_varid(file, "corners", &corners));
+  NetcdfWriter::check(nc_redef(file));
+  const int start = 5;
+  NetcdfWriter::check(nc_put_att_int(file, corners, "start_index", NC_INT, 1, &start));
+  NetcdfWriter::check(nc_close(file));
+  expectIOError(this->path("u.nc"), "states that its nodes are counted from 5",
+    [&] { openMeshSeries(this->path("u.nc"))->readMesh(); });
+}
+
+TEST_F(NetcdfConventions, WrittenUgridKeepsEachWholeNumber)
+{
+  const std::vector<std::int32_t> ids{ 0, NC_FILL_INT, 2 };
+  UgridContent content;
+  content.Nodes = 3;
+  content.Triangles = 1;
+  content.Node = [](std::int64_t node) { return Point2{ double(node % 2), double(node / 2) }; };
+  content.Corner = [](std::int64_t, int corner) { return corner; };
+  content.Arrays.push_back({ "id", "", "", Scalar::Int32, false, false,
+    [&ids](std::size_t) { return static_cast<const void*>(ids.data()); } });
+  ASSERT_TRUE(tipp::writeUgrid(this->path("u.nc"), content, std::nullopt, {}));
+  int file = 0;
+  int id = 0;
+  int hasNoFill = 0;
+  NetcdfWriter::check(nc_open(this->path("u.nc").c_str(), NC_NOWRITE, &file));
+  NetcdfWriter::check(nc_inq_varid(file, "id", &id));
+  NetcdfWriter::check(nc_inq_var_fill(file, id, &hasNoFill, nullptr));
+  std::vector<std::int32_t> values(3);
+  NetcdfWriter::check(nc_get_var_int(file, id, values.data()));
+  NetcdfWriter::check(nc_close(file));
+  EXPECT_EQ(1, hasNoFill);
+  EXPECT_EQ(ids, values);
 }
 
 TEST_F(NetcdfConventions, AFileWithoutAMeshIsRefused)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "ExpectIOError.h"
 #include "Netcdf/NetcdfFile.h"
 #include "NetcdfWriter.h"
 #include "TemporaryFolder.h"
@@ -96,6 +97,19 @@ TEST_F(NetcdfValues, AreUnpackedAfterTheFillValueIsFound)
         w.number(v, "scale_factor", NC_DOUBLE, { 0.5 });
         w.number(v, "add_offset", NC_DOUBLE, { 100 });
       }));
+}
+
+TEST_F(NetcdfValues, MayBePackedByNumbersWrittenAsText)
+{
+  EXPECT_EQ((std::vector<double>{ 2, -1 }),
+    this->read(
+      NC_SHORT, { 4, -2 }, [](NetcdfWriter& w, int v) { w.text(v, "scale_factor", "0.5"); }));
+  expectIOError(this->Folder.path("a.nc"), "gives 'v' the scale_factor 'half', which is no number",
+    [this]
+    {
+      this->read(
+        NC_SHORT, { 4 }, [](NetcdfWriter& w, int v) { w.text(v, "scale_factor", "half"); });
+    });
 }
 
 TEST_F(NetcdfValues, OfClassicFilesMayBeUnsigned)

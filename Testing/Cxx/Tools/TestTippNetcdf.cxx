@@ -185,8 +185,65 @@ TEST_F(TippUgrid, RefusesTetrahedraAndNamesThatAreTaken)
   this->write<double>("point_data/time", "<f8", "(4,)", { 0, 0, 1, 1 });
   const Outcome taken = runTipp(this->Folder, { "flatten", "surge", "-o", "mesh.nc" });
   EXPECT_EQ(1, taken.ExitCode);
-  EXPECT_NE(std::string::npos, taken.Err.find("the name 'time' twice")) << taken.Err;
+  EXPECT_NE(std::string::npos, taken.Err.find("needs another name for the array 'time'"))
+    << taken.Err;
   EXPECT_FALSE(this->exists("mesh.nc"));
+}
+
+TEST_F(TippUgrid, TurnsClockwiseTriangles)
+{
+  this->write<std::int32_t>("cells", "<i4", "(2, 3)", { 0, 3, 1, 1, 2, 3 });
+  this->flatten({ "surge" }, "mesh.nc");
+  const std::vector<std::int64_t> expected{ 0, 1, 3, 1, 2, 3 };
+  EXPECT_EQ(expected, openMeshSeries(this->Folder.path("mesh.nc"))->readMesh().Triangles);
+}
+
+TEST_F(TippUgrid, KeepsHeightsBesideAnArrayCalledElevation)
+{
+  this->write<double>("points", "<f8", "(4, 3)", { 0, 0, 5, 1, 0, 6, 1, 1, 7, 0, 1, 8 });
+  this->write<double>("point_data/elevation", "<f8", "(4,)", { 1, 2, 3, 4 });
+  this->flatten({ "surge" }, "mesh.nc");
+  const auto series = openMeshSeries(this->Folder.path("mesh.nc"));
+  std::vector<double> values;
+  series->read(findSeriesVariable(*series, "elevation"), 0, values);
+  EXPECT_EQ((std::vector<double>{ 1, 2, 3, 4 }), values);
+  series->read(findSeriesVariable(*series, "z"), 0, values);
+  EXPECT_EQ((std::vector<double>{ 5, 6, 7, 8 }), values);
+}
+
+TEST_F(TippUgrid, RefusesWholeNumbersThatStepsWouldRound)
+{
+  this->write<std::int64_t>("point_data/id", "<i8", "(4,)", { 0, 1, 2, 9007199254740993 });
+  const Outcome outcome = runTipp(this->Folder, { "flatten", "surge", "-o", "mesh.nc" });
+  EXPECT_EQ(1, outcome.ExitCode);
+  EXPECT_NE(std::string::npos, outcome.Err.find("has whole numbers of 2^53 and more in 'id'"))
+    << outcome.Err;
+  EXPECT_FALSE(this->exists("mesh.nc"));
+}
+
+TEST_F(TippUgrid, RefusesPointsWithoutCoordinatesAndNoTriangles)
+{
+  this->write<double>("points", "<f8", "(4, 2)", { 0, 0, 1, 0, 1, std::nan(""), 0, 1 });
+  const Outcome nowhere = runTipp(this->Folder, { "flatten", "surge", "-o", "mesh.nc" });
+  EXPECT_EQ(1, nowhere.ExitCode);
+  EXPECT_NE(std::string::npos, nowhere.Err.find("has no finite coordinates at point 2"))
+    << nowhere.Err;
+  this->Folder.file("line.csv", "x,y\n0,0\n1,1\n2,2\n");
+  const Outcome line = runTipp(this->Folder, { "delaunay", "line.csv", "-o", "mesh.nc" });
+  EXPECT_EQ(1, line.ExitCode);
+  EXPECT_NE(std::string::npos, line.Err.find("would have no triangles")) << line.Err;
+  EXPECT_FALSE(this->exists("mesh.nc"));
+}
+
+TEST_F(TippUgrid, OfAGeographicMeshIsInDegrees)
+{
+  this->Folder.file(
+    "ring.poly", "4 2 0 0\n1 5 50\n2 6 50\n3 6 51\n4 5 51\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n0\n");
+  const Outcome outcome = runTipp(
+    this->Folder, { "mesh", "ring.poly", "-o", "mesh.nc", "--size", "20000", "--geographic" });
+  ASSERT_EQ(0, outcome.ExitCode) << outcome.Err;
+  NetcdfFile file(this->Folder.path("mesh.nc"));
+  EXPECT_EQ("degrees_east", file.content().find("mesh2d_node_x")->text("units"));
 }
 
 TEST_F(TippUgrid, OfPointsStatesTheirReferenceSystem)

@@ -206,6 +206,10 @@ TEST_F(TippQuery, RefusesInvalidQueries)
   expect({ "query", "asked.csv", "mesh.tipp", "-o", "out.csv", "--step", "-1" }, 2, "--step");
   expect({ "query", "asked.csv", "mesh.tipp", "-o", "out.csv", "--step", "1" }, 1,
     "mesh.tipp: has no time step 1; there are 0, counted from 0.");
+  expect({ "query", "asked.csv", "mesh.vtu", "-o", "out.csv", "--step", "1" }, 1,
+    "mesh.vtu: has no time step 1; there are 0, counted from 0.");
+  expect({ "query", "asked.csv", "mesh.tipp", "-o", "out.csv", "--step", "0:4:0" }, 2,
+    "the stride of '0:4:0' must be at least 1");
   this->Folder.file("overlap.csv",
     "name,WKT\na,\"POLYGON ((0 0,2 0,2 2,0 0))\"\nb,\"POLYGON ((1 -1,3 -1,1 1.5,1 -1))\"\n");
   expect({ "query", "mesh.tipp", "--ids", "cells", "--polygons", "overlap.csv", "-o", "out.csv" },

@@ -40,7 +40,7 @@ TEST_F(TippResampleSeries, TakesStepsByFirstLastAndStride)
 
 TEST_F(TippResampleSeries, RefusesStepsThatThereAreNot)
 {
-  for (const char* steps : { "0:4", "2:1", "::0", "4:", "0:99999999999" })
+  for (const char* steps : { "0:4", "2:1", "4:", "0:99999999999" })
   {
     const Outcome outcome = this->run({ "-o", "no.npy", "--step", steps, "--arrays", "level" });
     EXPECT_EQ(1, outcome.ExitCode) << steps;
@@ -53,6 +53,10 @@ TEST_F(TippResampleSeries, RefusesStepsThatThereAreNot)
     EXPECT_EQ(2, outcome.ExitCode) << steps;
     EXPECT_NE(outcome.Err.find("is neither a number of a step"), std::string::npos) << outcome.Err;
   }
+  const Outcome standing = this->run({ "-o", "no.npy", "--step", "::0", "--arrays", "level" });
+  EXPECT_EQ(2, standing.ExitCode);
+  EXPECT_NE(standing.Err.find("the stride of '::0' must be at least 1"), std::string::npos)
+    << standing.Err;
 }
 
 TEST_F(TippResampleSeries, NeedsLittleMemoryForTrianglesBesideSamples)
