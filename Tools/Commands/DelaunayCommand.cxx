@@ -310,7 +310,7 @@ int runInMemory(const DelaunayArguments& arguments)
   {
     fmt::print("{}\n", constraintReport);
   }
-  warnOfNoTriangles(triangles);
+  warnOfNoTriangles(triangles, arguments.MaximumEdge);
   return Success;
 }
 
@@ -396,7 +396,7 @@ void writeOnFirst(Communicator& ranks, const DelaunayArguments& arguments, Delau
   {
     fmt::print("{}\n", describeSegments(constraints.Figures));
   }
-  warnOfNoTriangles(mine.AllCells);
+  warnOfNoTriangles(mine.AllCells, arguments.MaximumEdge);
 }
 
 /// Triangulates on all ranks. Every rank reads its share of the points; the first one writes the
@@ -486,7 +486,7 @@ void reportMade(
   {
     fmt::print("{}\n", describeSegments(statistics.Constraints));
   }
-  warnOfNoTriangles(statistics.Triangles);
+  warnOfNoTriangles(statistics.Triangles, arguments.MaximumEdge);
 }
 
 /// Runs `tipp delaunay` out of core on the ranks of a controller, or in this process alone (null).

@@ -260,14 +260,8 @@ void finishDem(const DemArguments& arguments, const DemReport& report)
   warnOfHidden(report.Hidden, arguments.NoData);
   if (report.Figures.Triangles == 0)
   {
-    const std::int64_t distinct =
-      report.Figures.Points - report.Figures.Duplicates - report.Figures.Rejected;
-    const bool mayBeLong = arguments.Request.MaximumEdge > 0 && distinct > 2;
     fmt::print(stderr, "tipp: warning: no pixel has a value, because {}.\n",
-      mayBeLong ? fmt::format("each triangle has an edge longer than the {} of --max-edge, or all "
-                              "points lie on one line",
-                    arguments.Request.MaximumEdge)
-                : "there are fewer than three distinct points or all lie on one line");
+      reasonForNoTriangles(arguments.Request.MaximumEdge));
   }
   else if (report.Filled == 0)
   {

@@ -201,13 +201,21 @@ void printWarnings(const std::vector<std::string>& warnings)
   }
 }
 
-void warnOfNoTriangles(std::int64_t triangles)
+std::string reasonForNoTriangles(double maximumEdge)
+{
+  const std::string tooFew = "there are fewer than three distinct points or all lie on one line";
+  return maximumEdge > 0
+    ? fmt::format(
+        "each triangle has an edge longer than the {} of --max-edge, or {}", maximumEdge, tooFew)
+    : tooFew;
+}
+
+void warnOfNoTriangles(std::int64_t triangles, double maximumEdge)
 {
   if (triangles == 0)
   {
-    fmt::print(stderr,
-      "tipp: warning: no triangles, because there are fewer than three distinct points or all lie "
-      "on one line.\n");
+    fmt::print(
+      stderr, "tipp: warning: no triangles, because {}.\n", reasonForNoTriangles(maximumEdge));
   }
 }
 

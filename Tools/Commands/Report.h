@@ -77,8 +77,10 @@ nlohmann::ordered_json jsonOf(const ReadFigures& figures);
 /// Prints warnings, each one sentence.
 void printWarnings(const std::vector<std::string>& warnings);
 
-/// Prints a warning if a run has made no triangles.
-void warnOfNoTriangles(std::int64_t triangles);
+/// Why a run has made no triangles. `maximumEdge`: of --max-edge; 0: not given.
+std::string reasonForNoTriangles(double maximumEdge);
+/// Prints a warning with it if a run has made no triangles.
+void warnOfNoTriangles(std::int64_t triangles, double maximumEdge);
 
 /// Warns that some of a raster's values equal the number for no data. `values`: how many; without
 /// any, nothing is printed.

@@ -332,6 +332,18 @@ TEST_F(Tipp, DuplicatesAreMapped)
   EXPECT_EQ((std::vector<double>{ 0, 1, 2, 1, -1 }), points.Columns[1].Values);
 }
 
+TEST_F(Tipp, WarnsThatAllTrianglesHaveLongEdges)
+{
+  this->Folder.file("points.csv", "x,y\n0,0\n4,0\n0,3\n");
+  const Outcome outcome =
+    this->run({ "delaunay", "points.csv", "-o", "none.npy", "--max-edge", "2" });
+  EXPECT_EQ(0, outcome.ExitCode);
+  EXPECT_NE(std::string::npos,
+    outcome.Err.find(
+      "no triangles, because each triangle has an edge longer than the 2 of --max-edge"))
+    << outcome.Err;
+}
+
 TEST_F(Tipp, CollinearPointsWarnAndGiveNoTriangles)
 {
   this->Folder.file("points.csv", "0 0\n1 1\n2 2\n");
