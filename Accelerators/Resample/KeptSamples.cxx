@@ -9,6 +9,7 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <type_traits>
 
@@ -351,8 +352,8 @@ void KeptSamples::forTiles(int threads, const Work& work) const
     });
 }
 
-template <typename Sample>
-void KeptSamples::sampleTiles(float* samples, int threads, const Sample& sample) const
+template <typename Work>
+void KeptSamples::forSamples(int threads, const Work& work) const
 {
   this->forTiles(threads,
     [&](const TileBox& box, const Slot* slots, const KeptSample* kept)
@@ -362,7 +363,7 @@ void KeptSamples::sampleTiles(float* samples, int threads, const Sample& sample)
         const std::int64_t first = row * this->Width + box.Column;
         for (std::int64_t i = first; i < first + box.Columns; ++i, ++kept)
         {
-          samples[i] = sample(slots[kept->Slot], *kept, i);
+          work(slots[kept->Slot], *kept, i);
         }
       }
     });
@@ -370,20 +371,38 @@ void KeptSamples::sampleTiles(float* samples, int threads, const Sample& sample)
 
 void KeptSamples::fromPoints(const double* values, float* samples, int threads) const
 {
-  this->sampleTiles(samples, threads,
-    [values](const Slot& slot, const KeptSample& kept, std::int64_t)
+  this->forSamples(threads,
+    [values, samples](const Slot& slot, const KeptSample& kept, std::int64_t i)
     {
       const double first = values[slot.Points[0]];
-      return float(first + double(kept.Second) * (values[slot.Points[1]] - first) +
+      samples[i] = float(first + double(kept.Second) * (values[slot.Points[1]] - first) +
         double(kept.Third) * (values[slot.Points[2]] - first));
+    });
+}
+
+void KeptSamples::pairFromPoints(
+  const double* values, float* first, float* second, int threads) const
+{
+  this->forSamples(threads,
+    [values, first, second](const Slot& slot, const KeptSample& kept, std::int64_t i)
+    {
+      TwoDoubles at[3];
+      for (int k = 0; k < 3; ++k)
+      {
+        std::memcpy(&at[k], values + 2 * std::size_t(slot.Points[k]), sizeof at[k]);
+      }
+      const TwoDoubles sampled =
+        at[0] + double(kept.Second) * (at[1] - at[0]) + double(kept.Third) * (at[2] - at[0]);
+      first[i] = float(sampled[0]);
+      second[i] = float(sampled[1]);
     });
 }
 
 void KeptSamples::fromCells(const double* values, float* samples, int threads) const
 {
-  this->sampleTiles(samples, threads,
-    [values](const Slot& slot, const KeptSample& kept, std::int64_t)
-    { return std::isnan(kept.Second) ? noValue : float(values[slot.Cell]); });
+  this->forSamples(threads,
+    [values, samples](const Slot& slot, const KeptSample& kept, std::int64_t i)
+    { samples[i] = std::isnan(kept.Second) ? noValue : float(values[slot.Cell]); });
 }
 
 namespace
@@ -411,14 +430,14 @@ bool fillDry(double (&value)[3])
 void KeptSamples::waterLevel(
   const double* values, const float* ground, float* samples, int threads) const
 {
-  this->sampleTiles(samples, threads,
-    [values, ground](const Slot& slot, const KeptSample& kept, std::int64_t i)
+  this->forSamples(threads,
+    [values, ground, samples](const Slot& slot, const KeptSample& kept, std::int64_t i)
     {
       double value[3] = { values[slot.Points[0]], values[slot.Points[1]], values[slot.Points[2]] };
       const bool isPartlyDry = fillDry(value);
       const auto level = float(value[0] + double(kept.Second) * (value[1] - value[0]) +
         double(kept.Third) * (value[2] - value[0]));
-      return isPartlyDry && !(level > ground[i]) ? noValue : level;
+      samples[i] = isPartlyDry && !(level > ground[i]) ? noValue : level;
     });
 }
 

@@ -49,6 +49,10 @@ public:
   /// all triangles, and if a corner of its triangle is.
   void fromPoints(const double* values, float* samples, int threads) const;
 
+  /// Interpolates two fields at once, which takes little more time than one. `values`: a value of
+  /// the first field and one of the second per point.
+  void pairFromPoints(const double* values, float* first, float* second, int threads) const;
+
   /// Takes a field from its values at the mesh's triangles. NaN outside.
   void fromCells(const double* values, float* samples, int threads) const;
 
@@ -104,9 +108,9 @@ private:
   void forSlots(const Work& work);
   template <typename Work>
   void forTiles(int threads, const Work& work) const;
-  /// Sets each sample to sample(slot, kept, index).
-  template <typename Sample>
-  void sampleTiles(float* samples, int threads, const Sample& sample) const;
+  /// Calls work(slot, kept, index) for all samples.
+  template <typename Work>
+  void forSamples(int threads, const Work& work) const;
 
   std::int64_t Width = 0;
   std::int64_t Height = 0;

@@ -190,11 +190,13 @@ public:
   std::optional<SeriesTimes> run()
   {
     this->readGround();
-    for (std::size_t step = 0; !this->Varying.empty() && step < this->Plan.Steps.size(); ++step)
+    const std::size_t steps = this->Varying.empty() ? 0 : this->Plan.Steps.size();
+    const std::size_t most = this->samplesPairs() ? 2 : 1;
+    for (std::size_t step = 0; step < steps; step += most)
     {
       for (Job& job : this->Varying)
       {
-        this->Tasks.push_back({ &job, step });
+        this->Tasks.push_back({ &job, step, std::min(most, steps - step) });
       }
     }
     for (Job& job : this->Constant)
@@ -225,11 +227,24 @@ private:
     std::vector<std::size_t> FieldsOfReducers;
   };
 
+  /// The work on one step, or on two.
   struct Task
   {
     Job* Of;
-    std::size_t Step; ///< index of SeriesPlan::Steps
+    std::size_t Step; ///< index of SeriesPlan::Steps: the first one
+    std::size_t Count = 1;
   };
+
+  /// Whether two steps at a time are sampled. It takes more memory, so not for values that are more
+  /// than the samples; and the output gets one step after another.
+  bool samplesPairs() const
+  {
+    const bool areAtNodes = std::none_of(this->Varying.begin(), this->Varying.end(),
+      [this](const Job& job) { return this->Series.Variables[job.Variable].OnCells; });
+    return areAtNodes && this->Ground.empty() &&
+      (this->Varying.size() == 1 || !this->Plan.WritesSteps) &&
+      std::int64_t(this->Samples.Nodes.size()) <= this->Samples.Kept.samples();
+  }
 
   std::vector<double> times() const
   {
@@ -246,12 +261,30 @@ private:
     return this->Series.Variables[variable].OnCells ? this->Samples.Cells : this->Samples.Nodes;
   }
 
-  /// Reads the values of a task, in another thread.
+  /// Reads the values of a task, in another thread: of two steps in turn, if it has two.
   std::vector<double> read(const Task& task)
   {
     const Stopwatch watch;
+    std::vector<double> values = this->readStep(task, task.Step);
+    if (task.Count == 2)
+    {
+      const std::vector<double> second = this->readStep(task, task.Step + 1);
+      std::vector<double> both(2 * values.size());
+      for (std::size_t i = 0; i < values.size(); ++i)
+      {
+        both[2 * i] = values[i];
+        both[2 * i + 1] = second[i];
+      }
+      values = std::move(both);
+    }
+    this->Times.Reading += watch.seconds();
+    return values;
+  }
+
+  std::vector<double> readStep(const Task& task, std::size_t index)
+  {
     std::vector<double> values;
-    const std::size_t step = this->Plan.Steps.empty() ? 0 : this->Plan.Steps[task.Step];
+    const std::size_t step = this->Plan.Steps.empty() ? 0 : this->Plan.Steps[index];
     this->Series.readAt(task.Of->Variable, step, this->storedOf(task.Of->Variable), values);
     const std::string& name = this->Series.Variables[task.Of->Variable].Name;
     for (double& value : values)
@@ -264,7 +297,6 @@ private:
             "', which 32 bits do not hold; name other arrays with --arrays.");
       }
     }
-    this->Times.Reading += watch.seconds();
     return values;
   }
 
@@ -285,22 +317,29 @@ private:
     const Task& task = this->Tasks[i];
     const std::vector<double> values = this->nextValues(i);
     std::vector<float>& samples = this->Buffers[i % 2];
-    samples.resize(std::size_t(this->Samples.Kept.samples()));
+    const auto ofStep = std::size_t(this->Samples.Kept.samples());
+    samples.resize(task.Count * ofStep);
     Stopwatch watch;
     this->sample(task, values, samples.data());
     this->Times.Sampling += watch.seconds();
     watch.restart();
-    this->reduce(task, samples);
+    for (std::size_t k = 0; k < task.Count; ++k)
+    {
+      this->reduce(task, task.Step + k, samples.data() + k * ofStep);
+    }
     this->Times.Reducing += watch.seconds();
     this->finishWriting();
     const bool varies = this->Series.Variables[task.Of->Variable].Varies;
     if (!varies || this->Plan.WritesSteps)
     {
       this->Writing = std::async(std::launch::async,
-        [this, &task, &samples]
+        [this, &task, &samples, ofStep]
         {
           const Stopwatch watchOfWriting;
-          this->Output.write(task.Of->Field, task.Step, samples.data());
+          for (std::size_t k = 0; k < task.Count; ++k)
+          {
+            this->Output.write(task.Of->Field, task.Step + k, samples.data() + k * ofStep);
+          }
           this->Times.Writing += watchOfWriting.seconds();
         });
     }
@@ -314,6 +353,10 @@ private:
     {
       kept.fromCells(values.data(), samples, this->Plan.Threads);
     }
+    else if (task.Count == 2)
+    {
+      kept.pairFromPoints(values.data(), samples, samples + kept.samples(), this->Plan.Threads);
+    }
     else if (variable.Varies && !this->Ground.empty())
     {
       kept.waterLevel(values.data(), this->Ground.data(), samples, this->Plan.Threads);
@@ -324,18 +367,18 @@ private:
     }
   }
 
-  void reduce(const Task& task, const std::vector<float>& samples) const
+  void reduce(const Task& task, std::size_t step, const float* samples) const
   {
     if (task.Of->Reducers.empty())
     {
       return;
     }
-    forChunks(std::int64_t(samples.size()), 1 << 14, this->Plan.Threads, {},
+    forChunks(this->Samples.Kept.samples(), 1 << 14, this->Plan.Threads, {},
       [&](std::int64_t begin, std::int64_t end, int)
       {
         for (SeriesReducer& reducer : task.Of->Reducers)
         {
-          reducer.add(task.Step, samples.data(), std::size_t(begin), std::size_t(end));
+          reducer.add(step, samples, std::size_t(begin), std::size_t(end));
         }
       });
   }

@@ -107,6 +107,30 @@ TEST(KeptSamples, DoNotDependOnThreads)
   }
 }
 
+TEST(KeptSamples, OfTwoFieldsAtOnceAreThoseOfEach)
+{
+  const Scene scene = jitteredScene(2, 30, 3);
+  const tipp::Lattice lattice = latticeOf(2, 301, -0.1, 1.1);
+  const std::size_t points = scene.Points.size() / 3;
+  std::vector<std::vector<double>> fields = { randomValues(points, 1), randomValues(points, 2) };
+  fields[1][points / 2] = std::nan("");
+  std::vector<double> both;
+  for (std::size_t i = 0; i < points; ++i)
+  {
+    both.insert(both.end(), { fields[0][i], fields[1][i] });
+  }
+  const auto kept = tipp::KeptSamples::find(scene.mesh(), lattice, 2);
+  const auto size = std::size_t(lattice.samples());
+  std::vector<std::vector<float>> samples(2, std::vector<float>(size));
+  kept->pairFromPoints(both.data(), samples[0].data(), samples[1].data(), 2);
+  for (std::size_t k = 0; k < 2; ++k)
+  {
+    std::vector<float> single(size);
+    kept->fromPoints(fields[k].data(), single.data(), 2);
+    EXPECT_EQ(0, std::memcmp(single.data(), samples[k].data(), size * sizeof(float)));
+  }
+}
+
 TEST(KeptSamples, TakeTheValuesThatTheyUseAlone)
 {
   const Scene scene = jitteredScene(2, 40, 3);
