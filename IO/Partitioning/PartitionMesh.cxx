@@ -16,6 +16,7 @@
 #include "Partitioning/PartitionJob.h"
 #include "Ranks/Communicator.h"
 #include "Resident/PieceNeighbors.h"
+#include "Series/MeshSeries.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -459,22 +460,57 @@ PartitionStatistics partitionInMemory(const std::function<FlatContent()>& make,
   }
 }
 
+namespace
+{
+
+/// Partitions the output of a model, which the first rank reads step by step.
+PartitionStatistics partitionSeries(const std::string& input, const std::string& output,
+  const PartitionOptions& options, vtkMultiProcessController* controller)
+{
+  std::unique_ptr<MeshSeries> series; // its content is read while it is written
+  const auto make = [&]
+  {
+    series = openMeshSeries(input, options.Model);
+    return flattenSeries(*series);
+  };
+  PartitionStatistics statistics = partitionInMemory(make, input, output, options, controller);
+  if (series)
+  {
+    statistics.VariablesLeftOut = series->LeftOut;
+  }
+  return statistics;
+}
+
+} // namespace
+
 PartitionStatistics partitionInput(const std::string& input, const std::string& output,
   const PartitionOptions& options, vtkMultiProcessController* controller)
 {
   Communicator ranks(controller);
   FlatMesh mesh;
   bool isFlat = true;
+  bool isSeries = false;
   ranks.attempt(
     [&]
     {
       if (ranks.isFirst())
       {
-        requireApart({ output }, { input });
+        std::vector<std::string> inputs = options.Model.Values;
+        inputs.push_back(input);
+        requireApart({ output }, inputs);
         requireFolderName(output);
         // fails early if the output cannot be written
         const PendingFolder writable(output, &replaceableMesh);
+        isSeries = isMeshSeries(input);
       }
+    });
+  if (ranks.broadcast(isSeries))
+  {
+    return partitionSeries(input, output, options, controller);
+  }
+  ranks.attempt(
+    [&]
+    {
       isFlat = isFlatMesh(input) || !isOpenedBy(input, Opener::Vtk);
       if (isFlat)
       {

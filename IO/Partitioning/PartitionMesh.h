@@ -54,8 +54,8 @@ std::vector<RawArray> describeArrays(const FlatMesh& mesh, PartitionedMesh& resu
 vtkSmartPointer<vtkDataSet> gatherDataSets(
   vtkDataObject* data, vtkMultiProcessController* controller);
 
-/// Like partitionMesh(), for a flat mesh or any file that readDataSet() supports, which the first
-/// rank reads. If it throws IOError on one rank, it throws on all.
+/// Like partitionMesh(), for a flat mesh, or the output of a model or any file that readDataSet()
+/// supports, which the first rank reads. If it throws IOError on one rank, it throws on all.
 VTKTIPPIO_EXPORT PartitionStatistics partitionInput(const std::string& input,
   const std::string& output, const PartitionOptions& options,
   vtkMultiProcessController* controller = nullptr);

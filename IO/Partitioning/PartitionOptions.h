@@ -5,6 +5,7 @@
 #include "Loading/VertexLoader.h"
 #include "OpenCL/Devices.h"
 #include "Partitioning/MeshTiling.h"
+#include "Series/MeshSeries.h"
 
 #include <cstdint>
 #include <functional>
@@ -31,6 +32,7 @@ struct PartitionOptions
   LoaderOptions Loading;        ///< its MemoryLimit is derived from the above
   std::int64_t ChunkCells = 0;  ///< 0: as many as fit in memory
   std::int64_t ChunkPoints = 0; ///< 0: as many as fit in memory
+  SeriesOptions Model;          ///< how the output of a model is read
   DeviceChoice Device;          ///< the device that classifies cells
   int Threads = 0;              ///< 0: defaultThreads()
   /// Called on every rank's calling thread, every few thousand points or cells, with the fraction
@@ -55,8 +57,9 @@ struct PartitionStatistics
   /// Of a VTK data set on the first rank: as in Flattened.
   std::map<std::string, std::int64_t> LeftOut;
   std::int64_t GhostCells = 0;
-  std::uint64_t SpilledBytes = 0; ///< on all ranks
-  std::uint64_t MeshBytes = 0;    ///< size of all files
+  std::vector<SeriesLeftOut> VariablesLeftOut; ///< of the output of a model, on the first rank
+  std::uint64_t SpilledBytes = 0;              ///< on all ranks
+  std::uint64_t MeshBytes = 0;                 ///< size of all files
   int Ranks = 1;
   int Threads = 1;
   std::string Loader; ///< the loader that was used

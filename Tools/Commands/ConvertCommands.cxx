@@ -57,12 +57,32 @@ Examples:
   tipp flatten fesom.mesh.diag.nc -o sst --values sst.1948.nc --wrap
 )";
 
+/// Adds --values and --wrap.
+void addModelOptions(CLI::App& command, SeriesOptions& model)
+{
+  command.add_option("--values", model.Values,
+    "With a mesh of a model: files of values at its nodes or cells: ASCII output of ADCIRC "
+    "(fort.63, maxele.63 ...), datasets of SMS (.dat), or NetCDF");
+  command.add_flag("--wrap", model.Wrap,
+    "With a mesh of a model in degrees: cells that cross the meridian at which longitudes jump are "
+    "on either side of it; without this they are an error");
+}
+
+/// Throws CLI::ValidationError for --values or --wrap with an input of another kind.
+void requireModel(const std::string& input, const SeriesOptions& model)
+{
+  if ((!model.Values.empty() || model.Wrap) && !isMeshSeries(input))
+  {
+    throw CLI::ValidationError(
+      "--values and --wrap need the mesh of a model (.nc, .slf, .2dm, .14, .grd, .gr3)");
+  }
+}
+
 struct FlattenArguments
 {
   std::string Input;
   std::string Output;
-  std::vector<std::string> Values;
-  bool Wrap = false;
+  SeriesOptions Model;
   std::string Crs;
   PathState Before; ///< of the output, if it is a file
 };
@@ -136,13 +156,13 @@ int writeContent(const FlattenArguments& arguments, const FlatContent& content)
 int flattenModelOutput(const FlattenArguments& arguments)
 {
   const auto series = isMeshSeries(arguments.Input)
-    ? openMeshSeries(arguments.Input, { arguments.Values, arguments.Wrap })
+    ? openMeshSeries(arguments.Input, arguments.Model)
     : openFlatSeries(arguments.Input);
   const int code = isFile(arguments) ? writeFile(arguments, ugridOf(*series))
                                      : writeContent(arguments, flattenSeries(*series));
   if (code == Success)
   {
-    warnOfVariablesLeftOut(*series);
+    warnOfVariablesLeftOut(series->Path, series->LeftOut);
   }
   return code;
 }
@@ -150,7 +170,7 @@ int flattenModelOutput(const FlattenArguments& arguments)
 /// Checks the paths before the computation.
 void checkPaths(FlattenArguments& arguments)
 {
-  std::vector<std::string> inputs = arguments.Values;
+  std::vector<std::string> inputs = arguments.Model.Values;
   inputs.push_back(arguments.Input);
   if (isFile(arguments))
   {
@@ -197,23 +217,14 @@ void addOptions(CLI::App& command, FlattenArguments& arguments)
   command.add_option("input", arguments.Input, "The mesh")->required();
   command.add_option("-o,--output", arguments.Output, "The folder, or the .nc file, to write")
     ->required();
-  command.add_option("--values", arguments.Values,
-    "With a mesh of a model: files of values at its nodes or cells: ASCII output of ADCIRC "
-    "(fort.63, maxele.63 ...), datasets of SMS (.dat), or NetCDF");
-  command.add_flag("--wrap", arguments.Wrap,
-    "With a mesh of a model in degrees: cells that cross the meridian at which longitudes jump are "
-    "on either side of it; without this they are an error");
+  addModelOptions(command, arguments.Model);
   command.add_option("--crs", arguments.Crs,
     "With .nc: the coordinate reference system, such as EPSG:32617, instead of the input's");
 }
 
 int run(FlattenArguments& arguments)
 {
-  if ((!arguments.Values.empty() || arguments.Wrap) && !isMeshSeries(arguments.Input))
-  {
-    throw CLI::ValidationError(
-      "--values and --wrap need the mesh of a model (.nc, .slf, .2dm, .14, .grd, .gr3)");
-  }
+  requireModel(arguments.Input, arguments.Model);
   refuseIf(!arguments.Crs.empty() && !isFile(arguments), "--crs", "needs an output named .nc");
   return isIdleRank() ? Success : runFlatten(arguments);
 }
@@ -235,7 +246,8 @@ constexpr const char* partitionFooter =
   R"(INPUT   a flat mesh: a folder of cells.npy, points.npy, point_data/NAME.npy and
         cell_data/NAME.npy, or a .vtu with appended, raw, uncompressed data, read in
         place whatever its size; or any VTK file of triangles or tetrahedra that
-        fits in memory.
+        fits in memory; or the output of a model, as for 'tipp flatten', with its time
+        steps, which need their space on the disk twice for the time of the run.
 MESH    a folder: mesh.pvtu, which ParaView and vtkXMLPUnstructuredGridReader read,
         the pieces, and an index. An existing partitioned mesh is replaced when the new
         one is complete.
@@ -249,6 +261,7 @@ no output. --memory is the limit of each rank, in bytes or such as 512M (2^20 by
 Examples:
   tipp partition mesh -o mesh.tipp --tiling grid:8x8
   tipp partition mesh.vtu -o mesh.tipp --tiling quadtree:100000 --memory 512M
+  tipp partition fort.63.nc -o surge.tipp --tiling quadtree:100000
   mpirun -np 4 tipp partition mesh -o mesh.tipp --borrowers duplicate
 )";
 
@@ -256,6 +269,7 @@ struct PartitionArguments
 {
   std::string Input;
   std::string Output;
+  SeriesOptions Model;
   std::string Tiling = "grid:4x4";
   std::string Borrowers = "reference";
   bool Neighbors = false;
@@ -316,12 +330,14 @@ PartitionOptions makeOptions(
   options.Loading.Kind = loaderFromName(arguments.Loader);
   options.Device = parseDeviceChoice(arguments.Device);
   options.Threads = arguments.Threads;
+  options.Model = arguments.Model;
   options.Progress = progressOn(bar);
   return options;
 }
 
 int run(PartitionArguments& arguments)
 {
+  requireModel(arguments.Input, arguments.Model);
   const MpiSession session;
   PartitionStatistics statistics;
   try
@@ -360,6 +376,7 @@ int run(PartitionArguments& arguments)
       double(statistics.MeshBytes) / 1e6, totalSeconds(statistics.Phases),
       double(peakMemoryBytes()) / 1e6);
     warnOfCellsLeftOut(arguments.Input, statistics.LeftOut, statistics.GhostCells);
+    warnOfVariablesLeftOut(arguments.Input, statistics.VariablesLeftOut);
   }
   return Success;
 }
@@ -369,6 +386,7 @@ void addOptions(CLI::App& command, PartitionArguments& arguments)
   command.add_option("input", arguments.Input, "The mesh")->required();
   command.add_option("-o,--output", arguments.Output, "The partitioned mesh, such as mesh.tipp")
     ->required();
+  addModelOptions(command, arguments.Model);
   addChecked(command, "--tiling", arguments.Tiling, checkTiling,
     "grid:COLUMNSxROWS[xLAYERS]; or quadtree:CELLS (octree:CELLS): partitions are divided until "
     "each meets at most CELLS cells that are not longer than the partition");

@@ -52,12 +52,11 @@ void printVariable(const SeriesVariable& variable)
 
 } // namespace
 
-void warnOfVariablesLeftOut(const MeshSeries& series)
+void warnOfVariablesLeftOut(const std::string& path, const std::vector<SeriesLeftOut>& leftOut)
 {
-  for (const SeriesLeftOut& left : series.LeftOut)
+  for (const SeriesLeftOut& left : leftOut)
   {
-    fmt::print(
-      stderr, "tipp: warning: {}: {} {}.\n", shownPath(series.Path), left.Name, left.Reason);
+    fmt::print(stderr, "tipp: warning: {}: {} {}.\n", shownPath(path), left.Name, left.Reason);
   }
 }
 

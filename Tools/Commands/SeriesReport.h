@@ -2,14 +2,18 @@
 #ifndef tippSeriesReport_h
 #define tippSeriesReport_h
 
+#include <string>
+#include <vector>
+
 namespace tipp
 {
 
 class MeshSeries;
+struct SeriesLeftOut;
 
-/// Warns of each variable that the output of a model has and `series` does not offer, with the
-/// reason.
-void warnOfVariablesLeftOut(const MeshSeries& series);
+/// Warns of each variable that the output of a model in a file has and its series does not offer,
+/// with the reason.
+void warnOfVariablesLeftOut(const std::string& path, const std::vector<SeriesLeftOut>& leftOut);
 
 /// Prints the mesh, its variables, the time steps, and what is left out.
 void describeSeries(MeshSeries& series);

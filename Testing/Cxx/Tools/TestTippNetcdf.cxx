@@ -128,6 +128,32 @@ TEST_F(TippUgrid, PiecesHaveTheSameMapsAndSeriesThroughTime)
   EXPECT_NE(std::string::npos, series[0].find("60,1,0.5,0.125,10.5")) << series[0];
 }
 
+TEST_F(TippUgrid, IsPartitionedWithItsSteps)
+{
+  this->flatten({ "surge" }, "mesh.nc");
+  for (const char* input : { "surge", "mesh.nc" })
+  {
+    const Outcome outcome = runTipp(this->Folder,
+      { "partition", input, "-o", std::string(input) + ".tipp", "--tiling", "grid:2x2" });
+    ASSERT_EQ(0, outcome.ExitCode) << outcome.Err;
+  }
+  this->Folder.file("stations.csv", "x,y\n0.25,0.5\n0.5,0.125\n");
+  std::vector<std::string> series;
+  for (const char* mesh : { "surge.tipp", "mesh.nc.tipp" })
+  {
+    const Outcome outcome = runTipp(this->Folder,
+      { "query", "stations.csv", mesh, "-o", "series.csv", "--step", "all", "--arrays", "level" });
+    ASSERT_EQ(0, outcome.ExitCode) << outcome.Err;
+    series.push_back(contentOf(this->Folder.path("series.csv")));
+  }
+  EXPECT_EQ(series[0], series[1]);
+  const Outcome wrong =
+    runTipp(this->Folder, { "partition", "surge", "-o", "no.tipp", "--values", "mesh.nc" });
+  EXPECT_EQ(2, wrong.ExitCode);
+  EXPECT_NE(std::string::npos, wrong.Err.find("--values and --wrap need the mesh of a model"))
+    << wrong.Err;
+}
+
 TEST_F(TippUgrid, HoldsATriangulation)
 {
   this->Folder.file("points.csv", "x,y,z,rain\n0,0,1,5\n4,0,2,6\n0,3,3,7\n4,3.5,4,8\n");
