@@ -8,6 +8,7 @@
 #include "Partitioned/ReadPiece.h"
 #include "Partitioning/PartitionMesh.h"
 #include "Reading/PieceSource.h"
+#include "Series/MeshSeries.h"
 #include "Vtk/Compatibility.h"
 
 #include "vtkDataArraySelection.h"
@@ -169,7 +170,17 @@ vtkMTimeType vtkPartitionedUnstructuredReader::GetMTime()
 
 int vtkPartitionedUnstructuredReader::CanReadFile(const char* path)
 {
-  return path && (tipp::isPartitionedMesh(path) || tipp::isFlatMesh(path)) ? 1 : 0;
+  try
+  {
+    return path &&
+        (tipp::isPartitionedMesh(path) || tipp::isFlatMesh(path) || tipp::isMeshSeries(path))
+      ? 1
+      : 0;
+  }
+  catch (const std::exception&)
+  {
+    return 0; // a damaged file
+  }
 }
 
 bool vtkPartitionedUnstructuredReader::HasBounds() const
@@ -216,7 +227,8 @@ void vtkPartitionedUnstructuredReader::OpenSource()
 {
   if (this->FileName.empty())
   {
-    throw std::invalid_argument("FileName is not set; name a partitioned or a flat mesh.");
+    throw std::invalid_argument(
+      "FileName is not set; name a partitioned or a flat mesh, or the output of a model.");
   }
   const tipp::TilingChoice choice = tipp::TilingChoice::require(this->Tiling);
   const std::string all = this->FileName + "\n" + this->Tiling + "\n" +

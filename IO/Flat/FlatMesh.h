@@ -124,8 +124,9 @@ VTKTIPPIO_EXPORT bool writeFlatMesh(
 
 /// Converts the output of a model, with its variables as point and cell data. Values are read when
 /// they are written, step by step; so `series` must outlive the content. Cells that are parts of
-/// others have the cell data "OriginalCellId". Throws IOError.
-VTKTIPPIO_EXPORT FlatContent flattenSeries(MeshSeries& series);
+/// others have the cell data "OriginalCellId". `marksMissing`: missing values are the mark that the
+/// model's users know, such as -99999, if it has one, instead of NaN. Throws IOError.
+VTKTIPPIO_EXPORT FlatContent flattenSeries(MeshSeries& series, bool marksMissing = true);
 
 } // namespace tipp
 

@@ -23,7 +23,7 @@ FlatArray ownedArray(std::string name, Scalar type, std::vector<T> values, int c
 }
 
 /// The array of a variable, or of the vector whose components begin with it.
-FlatArray arrayOf(MeshSeries& series, std::size_t first, std::int64_t tuples)
+FlatArray arrayOf(MeshSeries& series, std::size_t first, std::int64_t tuples, bool marksMissing)
 {
   const SeriesVariable& variable = series.Variables[first];
   int components = 1;
@@ -37,7 +37,7 @@ FlatArray arrayOf(MeshSeries& series, std::size_t first, std::int64_t tuples)
   array.Components = components;
   array.Tuples = tuples;
   array.Steps = variable.Varies ? std::int64_t(series.Times.size()) : 0;
-  const auto reader = std::make_shared<StepReader>(series, first, components, true);
+  const auto reader = std::make_shared<StepReader>(series, first, components, marksMissing);
   array.Type = reader->type();
   array.StepValues = [reader](std::int64_t step) { return reader->read(std::size_t(step)); };
   return array;
@@ -45,7 +45,7 @@ FlatArray arrayOf(MeshSeries& series, std::size_t first, std::int64_t tuples)
 
 } // namespace
 
-FlatContent flattenSeries(MeshSeries& series)
+FlatContent flattenSeries(MeshSeries& series, bool marksMissing)
 {
   SeriesMesh mesh = series.readMesh();
   FlatContent content;
@@ -55,7 +55,7 @@ FlatContent flattenSeries(MeshSeries& series)
   for (std::size_t i = 0; i < series.Variables.size();)
   {
     const bool isOnCells = series.Variables[i].OnCells;
-    FlatArray array = arrayOf(series, i, isOnCells ? cells : content.Points.Tuples);
+    FlatArray array = arrayOf(series, i, isOnCells ? cells : content.Points.Tuples, marksMissing);
     i += std::size_t(array.Components);
     (isOnCells ? content.CellData : content.PointData).push_back(std::move(array));
   }

@@ -3,19 +3,24 @@
 
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
+#include "Files/RawArray.h"
 #include "Flat/FlatMesh.h"
 #include "Loading/VertexLoader.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Sort.h"
 #include "Partition/ClassifyCells.h"
+#include "Partitioned/PieceFormat.h"
 #include "Partitioning/MeshTiling.h"
 #include "Partitioning/PartitionMesh.h"
 #include "Predicates/SensibleRange.h"
+#include "Series/MeshSeries.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <iterator>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -65,11 +70,17 @@ private:
   int Threads;
 };
 
+template <typename T>
+Buffer<char> bufferOf(const T* values, std::size_t count)
+{
+  Buffer<char> buffer(count * sizeof(T));
+  std::copy(values, values + count, buffer.template as<T>());
+  return buffer;
+}
+
 Buffer<char> bufferOf(const std::vector<std::int64_t>& values)
 {
-  Buffer<char> buffer(values.size() * sizeof(std::int64_t));
-  std::copy(values.begin(), values.end(), buffer.as<std::int64_t>());
-  return buffer;
+  return bufferOf(values.data(), values.size());
 }
 
 /// Converts 2 coordinates per point to 3, the third 0.
@@ -380,6 +391,148 @@ private:
   std::vector<std::int64_t> PointCounts; ///< number of points of each piece
 };
 
+Buffer<char> numbersBelow(std::int64_t count)
+{
+  Buffer<char> buffer(std::size_t(count) * sizeof(std::int64_t));
+  auto* const numbers = buffer.as<std::int64_t>();
+  std::iota(numbers, numbers + count, std::int64_t(0));
+  return buffer;
+}
+
+/// The output of a model as a mesh of one piece, with its time steps. The mesh is read at once, and
+/// values when the piece is; missing ones are NaN.
+class SeriesPieces : public PieceSource
+{
+public:
+  explicit SeriesPieces(const std::string& path)
+    : Series(openMeshSeries(path))
+    , Content(flattenSeries(*this->Series, false))
+  {
+    this->Mesh.Path = path;
+    this->Mesh.CellSize = this->Content.CellSize;
+    this->Mesh.PointType = Scalar::Float64;
+    this->Mesh.Points = this->Content.Points.Tuples;
+    this->Mesh.Cells = std::int64_t(this->Content.Cells.size()) / this->Content.CellSize;
+    this->Mesh.Tiling = "grid:1x1";
+    this->Mesh.Times = this->Content.Times;
+    this->describeArrays();
+    this->describePiece();
+  }
+
+  void prepare(Communicator&) override {}
+  std::vector<std::int64_t> weights() const override { return { this->Mesh.Cells }; }
+
+  std::vector<Piece> read(
+    const std::vector<std::size_t>& numbers, const PieceOptions& options) override
+  {
+    std::vector<Piece> pieces;
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+    {
+      pieces.push_back(this->readPiece(options));
+    }
+    return pieces;
+  }
+
+private:
+  /// An array of Content, and its step.
+  struct Source
+  {
+    const FlatArray* Array;
+    std::int64_t Step;
+  };
+
+  void describeArrays()
+  {
+    for (const bool ofPoints : { true, false })
+    {
+      for (const FlatArray& array : ofPoints ? this->Content.PointData : this->Content.CellData)
+      {
+        for (std::int64_t step = 0; step < std::max<std::int64_t>(array.Steps, 1); ++step)
+        {
+          this->Mesh.Arrays.push_back({ array.Name, ofPoints, array.Type, array.Components,
+            array.Steps > 0 ? int(step) : -1 });
+          this->Sources.push_back({ &array, step });
+        }
+      }
+    }
+    if (const std::string name = repeatedName(this->Mesh.Arrays); !name.empty())
+    {
+      throw IOError(this->Mesh.Path,
+        "has two arrays named " + name +
+          ", or one named as a partitioned mesh names its own; rename it.");
+    }
+  }
+
+  void describePiece()
+  {
+    Box3 box = Box3::empty();
+    const auto* const xy = static_cast<const double*>(this->Content.Points.Values);
+    for (std::int64_t i = 0; i < this->Mesh.Points; ++i)
+    {
+      if (std::isfinite(xy[2 * i]) && std::isfinite(xy[2 * i + 1]))
+      {
+        box.extend(Point3{ xy[2 * i], xy[2 * i + 1], 0 });
+      }
+    }
+    this->Mesh.Domain = box;
+    PieceSummary piece;
+    piece.Box = box;
+    piece.Extent = box;
+    piece.Points = this->Mesh.Points;
+    piece.Cells = this->Mesh.Cells;
+    this->Mesh.Pieces.push_back(piece);
+  }
+
+  Piece readPiece(const PieceOptions& options) const
+  {
+    const FlatContent& content = this->Content;
+    Piece piece;
+    piece.CellSize = content.CellSize;
+    piece.WideIds = true;
+    piece.Points = piece.OwnedPoints = this->Mesh.Points;
+    piece.Cells = piece.OwnedCells = this->Mesh.Cells;
+    piece.Coordinates = this->coordinates();
+    piece.PointIds = numbersBelow(piece.Points);
+    piece.PointGhosts = Buffer<char>(std::size_t(piece.Points));
+    std::memset(piece.PointGhosts.data(), 0, piece.PointGhosts.size());
+    piece.Connectivity = bufferOf(content.Cells);
+    piece.CellIds = numbersBelow(piece.Cells);
+    for (std::size_t i = 0; i < this->Sources.size(); ++i)
+    {
+      if (options.wants(this->Mesh, i))
+      {
+        piece.Attributes.push_back({ this->Mesh.Arrays[i], valuesOf(this->Sources[i]) });
+      }
+    }
+    return piece;
+  }
+
+  Buffer<char> coordinates() const
+  {
+    Buffer<char> buffer(std::size_t(this->Mesh.Points) * sizeof(Point3));
+    const auto* const xy = static_cast<const double*>(this->Content.Points.Values);
+    for (std::int64_t i = 0; i < this->Mesh.Points; ++i)
+    {
+      buffer.as<Point3>()[i] = { xy[2 * i], xy[2 * i + 1], 0 };
+    }
+    return buffer;
+  }
+
+  static Buffer<char> valuesOf(const Source& source)
+  {
+    const FlatArray& array = *source.Array;
+    const std::size_t bytes =
+      scalarSize(array.Type) * std::size_t(array.Tuples) * std::size_t(array.Components);
+    const void* const values =
+      array.StepValues ? array.StepValues(source.Step) : array.Values; // Values has one step
+    return bufferOf(static_cast<const char*>(values), bytes);
+  }
+
+  std::unique_ptr<MeshSeries> Series;
+  FlatContent Content;         ///< reads values from Series
+  std::vector<Source> Sources; ///< by array of Mesh
+};
+
 } // namespace
 
 PieceSource::~PieceSource() = default;
@@ -406,9 +559,13 @@ std::unique_ptr<PieceSource> openPieceSource(const std::string& path, const Sour
   {
     return std::make_unique<FlatPieces>(openFlatMesh(path), options);
   }
+  if (isMeshSeries(path))
+  {
+    return std::make_unique<SeriesPieces>(path);
+  }
   throw IOError(path,
-    "is neither a partitioned mesh (its folder or index) nor a flat one (a folder of .npy arrays, "
-    "or a .vtu file of appended, raw, uncompressed data).");
+    "is neither a partitioned mesh (its folder or index), nor a flat one (a folder of .npy arrays, "
+    "or a .vtu file of appended, raw, uncompressed data), nor the output of a model.");
 }
 
 void requireSensible(const PartitionedMesh& mesh, const Box3& range)

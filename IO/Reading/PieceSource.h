@@ -29,8 +29,9 @@ struct SourceOptions
   int Threads = 0; ///< 0: defaultThreads()
 };
 
-/// A source of pieces: a partitioned mesh on disk, or a flat mesh that is partitioned as it is
-/// read. Both give the same pieces, except for the order of points and cells in them.
+/// A source of pieces: a partitioned mesh on disk, a flat mesh that is partitioned as it is read,
+/// or the output of a model, of one piece. The first two give the same pieces, except for the order
+/// of points and cells in them.
 class PieceSource
 {
 public:
@@ -54,7 +55,7 @@ protected:
   PartitionedMesh Mesh;
 };
 
-/// Opens a partitioned or a flat mesh; throws IOError.
+/// Opens a partitioned or a flat mesh, or the output of a model; throws IOError.
 std::unique_ptr<PieceSource> openPieceSource(
   const std::string& path, const SourceOptions& options = {});
 

@@ -30,13 +30,15 @@ def read(
     return_type: str | None = None,
     progress_bar: ProgressBar = False,
 ) -> Any:
-    """Reads a partitioned or flat mesh, or the part of it that meets a range.
+    """Reads a partitioned or flat mesh, or the output of a model, or the part of it that meets a range.
 
     Parameters
     ----------
     path
-        A folder NAME.tipp, a folder of .npy arrays, or a .vtu file with appended, raw data. In the wheel, also a .vtp
-        or .vti file with such data, of which the options only select arrays; a .vti file gives an image.
+        A folder NAME.tipp, a folder of .npy arrays, or a .vtu file with appended, raw data. Or the output of a model, of
+        which missing values are NaN: NetCDF (.nc) by UGRID, ADCIRC, SCHISM, FVCOM, FESOM or MPAS, SELAFIN (.slf), or a
+        mesh of ADCIRC (.14, .grd), SCHISM (.gr3) or SMS (.2dm). In the wheel, also a .vtp or .vti file with appended, raw
+        data, of which the options only select arrays; a .vti file gives an image.
     bounds
         (xmin, xmax, ymin, ymax) or (xmin, xmax, ymin, ymax, zmin, zmax) in the mesh's units, a tipp.Bounds, or a data
         set, geometry or raster, whose bounds are used: reads only the cells that share a point with this closed box;
