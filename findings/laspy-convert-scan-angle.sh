@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# laspy.convert of laspy 2.7.0 sets all scan angles to 0 when points change between the formats 0 to 5, which store whole
+# laspy.convert of laspy 2.7.0 sets all scan angles to 0 when points change between formats 0 to 5, which store whole
 # degrees, and 6 to 10, which store multiples of 0.006 degrees. Fields of the same name, such as user data, are kept.
 # There is no warning, and convert's documentation does not mention it. laspy.point.format.lost_dimensions(3, 6), which
 # convert does not call, lists scan_angle_rank together with the colours that format 6 does not have.
