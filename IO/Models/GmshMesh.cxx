@@ -1,19 +1,55 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Files/IOError.h"
+#include "Files/InputFile.h"
 #include "Files/TextFile.h"
 #include "Models/ModelMesh.h"
 #include "Models/NodeNumbers.h"
 
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
 #include <map>
 #include <set>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
+#include <vector>
 
 namespace tipp
 {
 namespace
 {
+
+constexpr const char* notAscii = "is neither version 2.2 nor 4.1 in ASCII; convert it, as with "
+                                 "'gmsh -save -format msh22 FILE -o out.msh'.";
+
+/// Throws IOError for a file that begins as a mesh of Gmsh in binary, or as one of ANSYS Fluent,
+/// which has the same extension. Such a file has bytes that are not text.
+void refuseOtherMeshes(const std::string& path)
+{
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error))
+  {
+    return;
+  }
+  const InputFile file(path);
+  std::string beginning(std::size_t(std::min<std::uint64_t>(file.size(), 64)), '\0');
+  file.read(0, beginning.data(), beginning.size());
+  if (beginning.substr(0, 1) == "(")
+  {
+    throw IOError(path,
+      "is a mesh of ANSYS Fluent, not of Gmsh; convert it, as with 'meshio convert FILE out.vtu'.");
+  }
+  LineReader lines(beginning);
+  std::string_view line;
+  std::vector<std::string_view> fields;
+  if (lines.next(line) && line == "$MeshFormat" && lines.next(line) &&
+    splitFields(line, ' ', fields) && fields.size() > 1 && fields[1] != "0")
+  {
+    throw IOError(path, lines.lineNumber(), notAscii);
+  }
+}
 
 /// Reads a mesh of Gmsh in ASCII, of version 2.2 or 4.1
 /// (https://gmsh.info/doc/texinfo/gmsh.html#File-formats). Of its sections, MeshFormat, Entities,
@@ -121,8 +157,7 @@ private:
     const double version = this->Rows.number(0);
     if ((version != 2.2 && version != 4.1) || this->Rows.integer(1) != 0)
     {
-      this->Rows.fail("is neither version 2.2 nor 4.1 in ASCII; convert it, as with 'gmsh -save "
-                      "-format msh22 FILE -o out.msh'.");
+      this->Rows.fail(notAscii);
     }
     this->Version = version == 2.2 ? 2 : 4;
   }
@@ -298,6 +333,7 @@ private:
 
 ModelMesh readGmshMesh(const std::string& path, ModelPart part)
 {
+  refuseOtherMeshes(path);
   return GmshReader(path, part).read();
 }
 

@@ -187,6 +187,23 @@ TEST_F(ModelMeshes, DamagedMeshesOfGmshAreReportedWithTheLine)
   this->expectTruncationsReported("a.msh", this->Gmsh4, "$EndElements");
 }
 
+TEST_F(ModelMeshes, BinaryMeshesOfGmshAreToBeConverted)
+{
+  const std::string one("\1\0\0\0", 4);
+  this->expectError("a.msh", "$MeshFormat\n4.1 1 8\n" + one + "\n$EndMeshFormat\n",
+    "line 2: is neither version 2.2 nor 4.1 in ASCII; convert it, as with 'gmsh -save");
+}
+
+TEST_F(ModelMeshes, MeshesOfFluentAreNotTakenForThoseOfGmsh)
+{
+  const std::string header = "(1 \"meshio 5.3.5\")\n(2 3)\n(10 (0 1 3 0))\n";
+  for (const std::string& nodes :
+    { std::string("(10 (1 1 3 1 3)(\n0 0 0\n"), "(3010 (1 1 3 1 3)(" + std::string(72, '\0') })
+  {
+    this->expectError("a.msh", header + nodes, "is a mesh of ANSYS Fluent, not of Gmsh");
+  }
+}
+
 TEST_F(ModelMeshes, FilesOfTriangleAreReadByEitherName)
 {
   for (const std::string first : { "0", "1" })
