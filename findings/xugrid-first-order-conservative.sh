@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# RelativeOverlapRegridder of xugrid 0.15.3, whose default method is "first_order_conservative", keeps the sum over faces
+# RelativeOverlapRegridder of xugrid 0.15.3, whose default method is "first_order_conservative", keeps sums over faces
 # and not the integral. So a constant temperature of 10 degrees on 16 squares becomes 40 degrees on the 4 squares that
 # cover the same area, and 2.5 degrees on 64. Meshes of one resolution look right. The documentation says only that the
 # relative overlap "is required for e.g. first-order" conservative regridding.
