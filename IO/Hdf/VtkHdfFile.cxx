@@ -352,12 +352,39 @@ std::int64_t VtkHdfFile::offsetOf(const HdfArray& array, std::size_t step)
   {
     return 0;
   }
-  if (this->File.content().find("Steps/" + name))
+  if (const NetcdfVariable* const variable = this->File.content().find("Steps/" + name))
   {
-    const std::vector<std::int64_t> offsets = this->readOffsets(name, this->Times.size());
-    return offsets.size() == this->Times.size() ? offsets[step] : 0;
+    const std::vector<std::int64_t> shape = this->File.content().shape(*variable);
+    const std::size_t steps = this->Times.size();
+    // vtkHDFWriter adds no offset for a step without the array, so that those after it are shifted.
+    const bool isShort = !shape.empty() && shape[0] < std::int64_t(steps);
+    const std::vector<std::int64_t> offsets =
+      isShort ? std::vector<std::int64_t>() : this->readOffsets(name, steps);
+    if (isShort || (offsets.size() == steps && !this->hasEveryStep(array, offsets)))
+    {
+      throw IOError(this->path(),
+        "lacks the array '" + array.Name + "' at some of its " + std::to_string(steps) +
+          " steps, and does not say at which; leave it out, or write it at every step.");
+    }
+    return offsets.size() == steps ? offsets[step] : 0;
   }
   return array.OnCells ? this->Steps[step].Starts.front().Cells : this->Steps[step].Points;
+}
+
+/// Whether an array has values from each step's offset on.
+bool VtkHdfFile::hasEveryStep(const HdfArray& array, const std::vector<std::int64_t>& offsets) const
+{
+  const std::string name = (array.OnCells ? "CellData/" : "PointData/") + array.Name;
+  const std::vector<std::int64_t> shape = this->File.content().shape(this->require(name));
+  const std::int64_t tuples = shape.empty() ? 0 : shape[0];
+  for (std::size_t step = 0; step < offsets.size(); ++step)
+  {
+    if (offsets[step] > tuples - (array.OnCells ? this->cells(step) : this->points(step)))
+    {
+      return false;
+    }
+  }
+  return true;
 }
 
 HdfValues VtkHdfFile::read(const HdfArray& array, std::size_t step)

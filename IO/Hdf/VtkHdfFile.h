@@ -104,6 +104,7 @@ private:
   std::vector<std::int64_t> readOffsets(const std::string& name, std::size_t steps);
   std::int64_t cellsBefore(std::size_t step, std::size_t group) const;
   std::int64_t offsetOf(const HdfArray& array, std::size_t step);
+  bool hasEveryStep(const HdfArray& array, const std::vector<std::int64_t>& offsets) const;
   const NetcdfVariable& require(const std::string& name) const;
   [[noreturn]] void fail(const std::string& problem) const;
   /// Reads tuples [begin, begin + count) of an array of one or two dimensions.

@@ -221,13 +221,31 @@ TEST_F(VtkHdf, StepsBeyondTheFileAreErrors)
   expect(steps, "has step 1 (from 0) at parts that there are not");
   steps = twoSteps();
   steps.Level = { 0, 9 };
-  expect(steps, "tuples of 'PointData/level'");
+  expect(steps, "lacks the array 'level' at some of its 2 steps");
   steps = twoSteps();
   steps.Points = { 0 };
   expect(steps, "has 'PointOffsets' that are not integers of 2 steps");
   steps = twoSteps();
   steps.Times = { 60, 0 };
   expect(steps, "times that do not ascend");
+}
+
+TEST_F(VtkHdf, ArraysThatSomeStepsLackAreErrorsAtEveryStep)
+{
+  // vtkHDFWriter writes the first offsets if the array begins at the last step, the second if it
+  // ends before that one.
+  for (const Doubles& offsets : { Doubles{ 8 }, Doubles{ 0, 8 } })
+  {
+    Steps steps = twoSteps();
+    steps.Level = offsets;
+    this->write({}, steps);
+    for (const std::int64_t step : { 0, 1 })
+    {
+      Doubles values;
+      expectIOError(this->Path, "lacks the array 'level' at some of its 2 steps",
+        [&] { openMeshSeries(this->Path)->read(0, step, values); });
+    }
+  }
 }
 
 TEST_F(VtkHdf, FilesOfAnotherKindAreNamed)
