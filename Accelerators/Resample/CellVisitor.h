@@ -9,6 +9,7 @@
 #include "Resample/Claims.h"
 #include "Resample/GroupBoxes.h"
 #include "Resample/Lattice.h"
+#include "Resample/SamplingAccess.h"
 #include "Resample/SimplexMesh.h"
 
 #include <algorithm>
@@ -368,7 +369,7 @@ bool visitCells(const SimplexMesh& mesh, const LatticeAxes& axes, std::vector<Si
   const Report& report, GroupBoxes& boxes)
 {
   bool completed = false;
-  withAccess(mesh,
+  withSamplingAccess(mesh,
     [&](const auto& access)
     {
       using Access = std::decay_t<decltype(access)>;

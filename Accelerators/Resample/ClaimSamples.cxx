@@ -6,6 +6,7 @@
 #include "Resample/CellVisitor.h"
 #include "Resample/Lattice.h"
 #include "Resample/NearBorder.h"
+#include "Resample/SamplingAccess.h"
 #include "Resample/SimplexMesh.h"
 
 #include <algorithm>
@@ -50,7 +51,7 @@ std::vector<BorderClaim> borderClaims(
     }
   }
   begins.push_back(touches.size());
-  withAccess(mesh,
+  withSamplingAccess(mesh,
     [&](const auto& access)
     {
       forChunks(std::int64_t(claims.size()), 1 << 8, threads, {},
@@ -253,7 +254,7 @@ private:
     const std::unique_ptr<CellKey[]> keys(new CellKey[samples]);
     this->fill(keys.get(), noCellKey);
     auto* const claims = reinterpret_cast<std::uint32_t*>(this->Result.Cells.get());
-    withAccess(this->Mesh,
+    withSamplingAccess(this->Mesh,
       [&](const auto& access)
       {
         using Access = std::decay_t<decltype(access)>;
@@ -352,7 +353,7 @@ void mergeClaims(
   const SimplexMesh& mesh, Claims& claims, const SampleWindow& window, int threads, CellKey* keys)
 {
   const LatticeAxes axes(mesh, window.lattice());
-  withAccess(mesh,
+  withSamplingAccess(mesh,
     [&](const auto& access)
     {
       forChunks(window.samples(), 1 << 12, threads, {},

@@ -4,6 +4,7 @@
 #include "Arrays/IndexSet.h"
 #include "Resample/ClaimSamples.h"
 #include "Resample/Lanes.h"
+#include "Resample/SamplingAccess.h"
 
 #include <algorithm>
 #include <array>
@@ -111,7 +112,7 @@ public:
     std::vector<TileCells> cells{ std::size_t(threads) };
     std::atomic<std::int64_t> inside{ 0 };
     bool completed = false;
-    withAccess(this->Mesh,
+    withSamplingAccess(this->Mesh,
       [&](const auto& access)
       {
         if constexpr (std::decay_t<decltype(access)>::Dimension == 2)

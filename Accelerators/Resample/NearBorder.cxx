@@ -4,6 +4,7 @@
 #include "Arrays/Concatenated.h"
 #include "Arrays/Decimal.h"
 #include "Predicates/ExactPredicates.h"
+#include "Resample/SamplingAccess.h"
 
 #include <cmath>
 #include <cstddef>
@@ -295,7 +296,7 @@ std::vector<NearSample> nearSamples(const SimplexMesh& mesh, const LatticeAxes& 
   const std::function<bool(std::int64_t)>& isOpen)
 {
   std::vector<NearSample> found;
-  withAccess(mesh,
+  withSamplingAccess(mesh,
     [&](const auto& access)
     {
       using Access = std::decay_t<decltype(access)>;

@@ -6,6 +6,7 @@
 #include "Resample/ClaimSamples.h"
 #include "Resample/NearBorder.h"
 #include "Resample/SampleBlock.h"
+#include "Resample/SamplingAccess.h"
 
 #include <algorithm>
 #include <cstring>
@@ -110,7 +111,7 @@ bool interpolate(const SimplexMesh& mesh, const SampleWindow& window, const std:
 {
   const LatticeAxes axes(mesh, window.lattice());
   bool completed = false;
-  withAccess(mesh,
+  withSamplingAccess(mesh,
     [&](const auto& access)
     {
       using Block = SampleBlock<std::decay_t<decltype(access)>>;
@@ -279,7 +280,7 @@ DirectResult sampleRest(const SimplexMesh& mesh, const LatticeAxes& axes,
   std::vector<BorderSample>* border, GroupBoxes& boxes)
 {
   DirectResult result;
-  withAccess(mesh,
+  withSamplingAccess(mesh,
     [&](const auto& access)
     {
       using Access = std::decay_t<decltype(access)>;
@@ -533,11 +534,41 @@ private:
 
 } // namespace
 
+#ifdef TIPP_SAMPLES_DOUBLES
+namespace
+{
+
+/// Returns the coordinates as doubles if they have 32 bits; otherwise null.
+std::unique_ptr<double[]> widened(const SimplexMesh& mesh, int threads)
+{
+  if (!mesh.Float)
+  {
+    return nullptr;
+  }
+  std::unique_ptr<double[]> points(new double[3 * std::size_t(mesh.PointCount)]);
+  const auto* const narrow = static_cast<const float*>(mesh.Points);
+  forChunks(3 * mesh.PointCount, 1 << 16, threads, {},
+    [&](std::int64_t begin, std::int64_t end, int)
+    { std::copy(narrow + begin, narrow + end, points.get() + begin); });
+  return points;
+}
+
+} // namespace
+#endif
+
 ResampleResult resample(const SimplexMesh& mesh, const Lattice& lattice,
   const std::vector<Attribute>& attributes, const ResampleOptions& options)
 {
   const ThreadLimit limit(options.Threads); // for copies to and from a device
+#ifdef TIPP_SAMPLES_DOUBLES
+  const std::unique_ptr<double[]> points = widened(mesh, options.Threads);
+  SimplexMesh wide = mesh;
+  wide.Points = points ? points.get() : mesh.Points;
+  wide.Float = false;
+  return Resampler(wide, lattice, attributes, options).run();
+#else
   return Resampler(mesh, lattice, attributes, options).run();
+#endif
 }
 
 } // namespace tipp

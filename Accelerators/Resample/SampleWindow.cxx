@@ -2,6 +2,7 @@
 #include "Resample/SampleWindow.h"
 
 #include "Parallel/BoundsOf.h"
+#include "Resample/SamplingAccess.h"
 
 #include <array>
 #include <cmath>
@@ -65,7 +66,7 @@ SampleWindow SampleWindow::around(const SimplexMesh& mesh, const Lattice& lattic
   SampleWindow window(mesh, lattice);
   const std::array<int, 3> axes = axesOf(mesh);
   std::int64_t begins[3] = {};
-  withAccess(mesh,
+  withSamplingAccess(mesh,
     [&](const auto& access)
     {
       const auto bounds = boundsOfCells(mesh, access, threads);
