@@ -5,6 +5,7 @@
 #include "Pipeline/FilterPipeline.h"
 #include "Sampling/CompareSurfaces.h"
 #include "Sampling/SamplingRange.h"
+#include "Sampling/SurfaceOfMesh.h"
 #include "Vtk/DataSets.h"
 
 #include "vtkDoubleArray.h"
@@ -82,14 +83,18 @@ void vtkTIPPCutFill::Execute(vtkPointSet* before, vtkDataObject* after, vtkTable
   }
   const std::array<std::string, 2> names = { "the surface before", "the surface after" };
   tipp::checkDataSet(before, names[0], threads);
-  tipp::SurfaceComparison comparison(before, names, bounds, threads);
+  const auto surfaceOf = [threads](vtkPointSet* mesh, const std::string& name) {
+    return tipp::surfaceOf(mesh, name, { 0, 1, 2 }, threads);
+  };
+  tipp::SurfaceComparison comparison(surfaceOf(before, names[0]), names, bounds, threads);
   tipp::Monitor monitor(this);
   const std::vector<vtkPointSet*> meshes = tipp::meshesOf(after, threads, names[1]);
   const double share = 1 / double(meshes.empty() ? 1 : meshes.size());
   double begin = 0;
   for (vtkPointSet* const mesh : meshes)
   {
-    if (!comparison.add(mesh, [&](double fraction) { return monitor(begin + share * fraction); }))
+    if (!comparison.add(surfaceOf(mesh, names[1]),
+          [&](double fraction) { return monitor(begin + share * fraction); }))
     {
       return;
     }

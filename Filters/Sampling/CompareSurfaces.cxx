@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Sampling/CompareSurfaces.h"
 
-#include "Pipeline/InputPoints.h"
 #include "Predicates/SensibleRange.h"
-
-#include "vtkPointSet.h"
 
 #include <cstddef>
 #include <stdexcept>
@@ -12,31 +9,21 @@
 
 namespace tipp
 {
-namespace
-{
 
-SimplexParts trianglesWithHeights(vtkPointSet* mesh, const std::string& name, int threads)
-{
-  return makeTriangles(mesh, name, { 0, 1, 2 }, threads);
-}
-
-} // namespace
-
-SurfaceComparison::SurfaceComparison(vtkPointSet* first, std::array<std::string, 2> names,
+SurfaceComparison::SurfaceComparison(SurfacePart first, std::array<std::string, 2> names,
   const std::optional<Box2>& bounds, int threads)
-  : First(first)
+  : First(std::move(first))
   , Names(std::move(names))
   , Bounds(bounds)
   , Threads(threads)
-  , Parts(trianglesWithHeights(first, this->Names[0], threads))
-  , Sums(this->Parts.Triangles.Mesh, bounds, threads)
+  , Sums(this->First.Mesh, bounds, threads)
 {
-  if (this->Parts.Triangles.Mesh.Cells == 0)
+  if (this->First.Mesh.Cells == 0)
   {
     throw std::runtime_error(this->Names[0] + " has no cells with an area: give a surface.");
   }
-  this->NotFinite[0] = this->Parts.NotFinite;
-  this->Extents[0] = finiteBounds(first->GetPoints());
+  this->NotFinite[0] = this->First.NotFinite;
+  this->Extents[0] = finiteBounds(this->First.Mesh, threads);
   if (bounds)
   {
     const Box3 range = { { bounds->Min.x, bounds->Min.y, 0 }, { bounds->Max.x, bounds->Max.y, 0 } };
@@ -44,16 +31,15 @@ SurfaceComparison::SurfaceComparison(vtkPointSet* first, std::array<std::string,
   }
 }
 
-bool SurfaceComparison::add(vtkPointSet* second, const Report& report)
+bool SurfaceComparison::add(const SurfacePart& second, const Report& report)
 {
-  const SimplexParts parts = trianglesWithHeights(second, this->Names[1], this->Threads);
-  this->NotFinite[1] += parts.NotFinite;
-  if (parts.Triangles.Mesh.Cells == 0)
+  this->NotFinite[1] += second.NotFinite;
+  if (second.Mesh.Cells == 0)
   {
     return true;
   }
-  this->Extents[1].extend(finiteBounds(second->GetPoints()));
-  return this->Sums.add(parts.Triangles.Mesh, report);
+  this->Extents[1].extend(finiteBounds(second.Mesh, this->Threads));
+  return this->Sums.add(second.Mesh, report);
 }
 
 CutFill SurfaceComparison::result() const

@@ -5,10 +5,8 @@
 #include "Overlap/CutFill.h"
 #include "Parallel/ParallelFor.h"
 #include "Predicates/Geometry.h"
-#include "Sampling/SimplexParts.h"
+#include "Sampling/SurfacePart.h"
 #include "vtkTIPPFiltersModule.h"
-
-#include "vtkSmartPointer.h"
 
 #include <array>
 #include <cstdint>
@@ -16,26 +14,23 @@
 #include <string>
 #include <vector>
 
-class vtkPointSet;
-
 namespace tipp
 {
 
 /// Computes the volumes between two surfaces whose heights are the z of their points, linear in
-/// each triangle. Other cells are cut into triangles. Cells with a corner that is not finite are
-/// left out. The result does not depend on the number of threads.
+/// each triangle. Cells with a corner that is not finite are left out. The result does not depend
+/// on the number of threads.
 class VTKTIPPFILTERS_EXPORT SurfaceComparison
 {
 public:
-  /// `first` must have passed checkDataSet(), and is shared. `names`: what messages call the two
-  /// surfaces. `threads` is at least 1. Throws std::runtime_error if the first surface has cells
-  /// with a volume or no cells with an area, or if `bounds` are not sensible for it.
-  SurfaceComparison(vtkPointSet* first, std::array<std::string, 2> names,
+  /// `names`: what messages call the two surfaces. `threads` is at least 1. Throws
+  /// std::runtime_error if the first surface has no cells with an area, or if `bounds` are not
+  /// sensible for it.
+  SurfaceComparison(SurfacePart first, std::array<std::string, 2> names,
     const std::optional<Box2>& bounds, int threads);
 
-  /// Adds the second surface, or a part of it, which must have passed checkDataSet(). Returns false
-  /// if `report` stopped the work. Throws std::runtime_error for cells with a volume.
-  bool add(vtkPointSet* second, const Report& report);
+  /// Adds the second surface, or a part of it. Returns false if `report` stopped the work.
+  bool add(const SurfacePart& second, const Report& report);
 
   /// Returns the sums. Throws std::runtime_error if the surfaces have no area in common.
   CutFill result() const;
@@ -46,11 +41,10 @@ public:
 private:
   void addLeftOut(std::vector<std::string>& sentences) const;
 
-  vtkSmartPointer<vtkPointSet> First;
+  SurfacePart First;
   std::array<std::string, 2> Names;
   std::optional<Box2> Bounds;
   int Threads;
-  SimplexParts Parts; ///< of the first surface
   CutFillSums Sums;
   Box3 Extents[2] = { Box3::empty(), Box3::empty() };
   std::int64_t NotFinite[2] = { 0, 0 };

@@ -6,6 +6,7 @@
 #include "Parallel/Stopwatch.h"
 #include "Sampling/HiddenSamples.h"
 #include "Sampling/SamplingLattice.h"
+#include "Sampling/SurfaceOfPiece.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,8 +19,6 @@ namespace tipp
 {
 namespace
 {
-
-constexpr int hiddenCell = 32; // VTK's vtkDataSetAttributes::HIDDENCELL
 
 std::size_t bytesOfTuple(Scalar type, int components)
 {
@@ -55,48 +54,6 @@ void markEqual(const Piece::Attribute& attribute, double value, std::vector<bool
     });
 }
 
-/// Marks the points with a coordinate along the axes that is not finite. Returns whether there are
-/// any.
-bool markNotFinite(const Piece& piece, const std::vector<int>& axes, std::vector<bool>& marked)
-{
-  bool isAny = false;
-  withScalar(piece.PointType,
-    [&](auto zero)
-    {
-      const auto* const points = piece.Coordinates.as<decltype(zero)>();
-      for (std::size_t i = 0; i < marked.size(); ++i)
-      {
-        for (const int axis : axes)
-        {
-          if (!std::isfinite(double(points[3 * i + std::size_t(axis)])))
-          {
-            marked[i] = true;
-            isAny = true;
-          }
-        }
-      }
-    });
-  return isAny;
-}
-
-/// The array's values as doubles: its own, or those in `copy`.
-const double* doublesOf(const Piece::Attribute& attribute, std::vector<double>& copy)
-{
-  const StoredArray& array = attribute.Description;
-  if (array.Type == Scalar::Float64)
-  {
-    return attribute.Values.as<double>();
-  }
-  withScalar(array.Type,
-    [&](auto zero)
-    {
-      using T = decltype(zero);
-      const T* const values = attribute.Values.as<T>();
-      copy.assign(values, values + attribute.Values.size() / sizeof(T));
-    });
-  return copy.data();
-}
-
 const Piece::Attribute* find(const Piece& piece, const StoredArray& wanted)
 {
   const auto found = std::find_if(piece.Attributes.begin(), piece.Attributes.end(),
@@ -110,21 +67,6 @@ const Piece::Attribute* find(const Piece& piece, const StoredArray& wanted)
 }
 
 } // namespace
-
-SimplexMesh meshOf(const Piece& piece, const std::vector<int>& axes)
-{
-  SimplexMesh mesh;
-  mesh.Points = piece.Coordinates.data();
-  mesh.Float = piece.PointType == Scalar::Float32;
-  mesh.Ids = piece.Connectivity.data();
-  mesh.Wide = piece.WideIds;
-  mesh.Cells = piece.OwnedCells;
-  mesh.PointCount = piece.Points;
-  mesh.Dimension = piece.CellSize - 1;
-  mesh.Axes[0] = axes[0];
-  mesh.Axes[1] = axes[1];
-  return mesh;
-}
 
 SampledPieces::SampledPieces(const Lattice& lattice, PieceSampling settings)
   : Grid(lattice)
@@ -176,35 +118,14 @@ void SampledPieces::addArrays(const Piece& piece, bool ofPoints)
   }
 }
 
-std::vector<unsigned char> SampledPieces::hiddenCells(const Piece& piece, const SimplexMesh& mesh)
+std::vector<unsigned char> SampledPieces::hiddenCellsOf(const Piece& piece)
 {
-  std::vector<unsigned char> hidden(std::size_t(mesh.Cells), 0);
-  const Piece::Attribute* const ghosts =
-    find(piece, { ghostArrayName, false, Scalar::UInt8, 1, -1 });
-  for (std::size_t i = 0; ghosts && i < hidden.size(); ++i)
-  {
-    hidden[i] = (unsigned char)((ghosts->Values.as<std::uint8_t>()[i] & hiddenCell) != 0);
-  }
-  const auto hideAt = [&](const std::vector<bool>& marked)
-  {
-    std::int64_t count = 0;
-    for (std::int64_t cell = 0; cell < mesh.Cells; ++cell)
-    {
-      bool isMarked = false;
-      for (int i = 0; i < piece.CellSize; ++i)
-      {
-        isMarked = isMarked || marked[std::size_t(piece.corner(cell, i))];
-      }
-      count += isMarked && !hidden[std::size_t(cell)] ? 1 : 0;
-      hidden[std::size_t(cell)] |= (unsigned char)(isMarked);
-    }
-    return count;
-  };
+  std::vector<unsigned char> hidden = hiddenCells(piece);
   std::vector<bool> marked(std::size_t(piece.Points), false);
   if (markNotFinite(
-        piece, mesh.Dimension == 2 ? this->Settings.Axes : std::vector<int>{ 0, 1, 2 }, marked))
+        piece, piece.CellSize == 3 ? this->Settings.Axes : std::vector<int>{ 0, 1, 2 }, marked))
   {
-    this->NotFinite += hideAt(marked);
+    this->NotFinite += hideAt(piece, marked, hidden);
   }
   if (this->Settings.NoData)
   {
@@ -216,7 +137,7 @@ std::vector<unsigned char> SampledPieces::hiddenCells(const Piece& piece, const 
         markEqual(attribute, *this->Settings.NoData, marked);
       }
     }
-    hideAt(marked);
+    hideAt(piece, marked, hidden);
   }
   return hidden;
 }
@@ -238,7 +159,7 @@ bool SampledPieces::add(const Piece& piece, const Report& progress)
   this->IsSurface = piece.CellSize == 3;
   this->Cells += piece.OwnedCells;
   SimplexMesh mesh = meshOf(piece, this->Settings.Axes);
-  const std::vector<unsigned char> hidden = this->hiddenCells(piece, mesh);
+  const std::vector<unsigned char> hidden = this->hiddenCellsOf(piece);
   mesh.Hidden = hidden.data();
   const bool isDone = this->Settings.Conservative ? this->average(piece, mesh, progress)
                                                   : this->sample(piece, mesh, progress);

@@ -72,7 +72,7 @@ private:
 
   void addArrays(const Piece& piece, bool ofPoints);
   bool isSelected(const StoredArray& array) const;
-  std::vector<unsigned char> hiddenCells(const Piece& piece, const SimplexMesh& mesh);
+  std::vector<unsigned char> hiddenCellsOf(const Piece& piece);
   bool sample(const Piece& piece, const SimplexMesh& mesh, const Report& progress);
   bool average(const Piece& piece, const SimplexMesh& mesh, const Report& progress);
   void finishMeans();
@@ -95,9 +95,6 @@ private:
   bool IsSurface = true;
   bool HasSamples = false;
 };
-
-/// Returns a view of a piece's own cells; triangles are seen along the two axes.
-SimplexMesh meshOf(const Piece& piece, const std::vector<int>& axes);
 
 /// Throws std::runtime_error if this machine lacks the memory for the samples of a mesh with these
 /// arrays.

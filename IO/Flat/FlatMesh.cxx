@@ -369,6 +369,23 @@ bool writeData(const std::string& folder, const std::vector<FlatArray>& arrays,
 
 } // namespace
 
+namespace
+{
+
+/// Whether a file may be a flat mesh by its name. VTK reads surfaces with other polygons, too, so
+/// that .vtp files are left to it.
+bool isVtuName(const std::string& path)
+{
+  const std::string extension = extensionOf(path);
+#ifdef TIPP_WITHOUT_VTK
+  return extension == ".vtu" || extension == ".vtp";
+#else
+  return extension == ".vtu";
+#endif
+}
+
+} // namespace
+
 FlatMesh openFlatMesh(const std::string& path)
 {
   std::error_code failure;
@@ -376,7 +393,7 @@ FlatMesh openFlatMesh(const std::string& path)
   {
     return openFlatFolder(path);
   }
-  if (extensionOf(path) == ".vtu")
+  if (isVtuName(path))
   {
     return openFlatVtu(path);
   }
@@ -388,9 +405,8 @@ FlatMesh openFlatMesh(const std::string& path)
 bool isFlatMesh(const std::string& path)
 {
   std::error_code failure;
-  return std::filesystem::is_directory(path, failure)
-    ? isFlatFolder(path)
-    : extensionOf(path) == ".vtu" && isFlatVtu(path);
+  return std::filesystem::is_directory(path, failure) ? isFlatFolder(path)
+                                                      : isVtuName(path) && isFlatVtu(path);
 }
 
 bool writeFlatMesh(

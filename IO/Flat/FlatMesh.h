@@ -35,6 +35,8 @@ struct FlatMesh
   /// Arrays that vary in time: one RawArray per time step for each of them.
   std::vector<std::vector<RawArray>> PointSeries;
   std::vector<std::vector<RawArray>> CellSeries;
+
+  std::int64_t OtherCells = 0; ///< vertices and lines of a .vtp file, which are left out
 };
 
 /// Opens one of two:
@@ -44,7 +46,8 @@ struct FlatMesh
 ///   ascending), arrays of T x n or T x n x c vary in time. In a file name, % and two hexadecimal
 ///   digits encode a byte of the array name, such as `%2F` a slash;
 /// - a .vtu file with appended, raw, uncompressed, little-endian data and one piece of only
-///   triangles or only tetrahedra, read in place. Arrays of strings are skipped.
+///   triangles or only tetrahedra, read in place. Arrays of strings are skipped. In a build without
+///   VTK also such a .vtp file, whose vertices and lines are left out.
 /// Throws IOError for anything else, with the reason.
 VTKTIPPIO_EXPORT FlatMesh openFlatMesh(const std::string& path);
 
@@ -52,7 +55,10 @@ VTKTIPPIO_EXPORT FlatMesh openFlatMesh(const std::string& path);
 /// file with an appended raw, uncompressed header. Opening it may still fail.
 VTKTIPPIO_EXPORT bool isFlatMesh(const std::string& path);
 
-/// Implement openFlatMesh() and isFlatMesh() for .vtu files.
+/// Throws IOError if the mesh has OtherCells, for work in which the numbers of cells matter.
+void requireNoOtherCells(const FlatMesh& mesh);
+
+/// Implement openFlatMesh() and isFlatMesh() for .vtu and .vtp files.
 ///@{
 FlatMesh openFlatVtu(const std::string& path);
 bool isFlatVtu(const std::string& path);

@@ -515,6 +515,7 @@ PartitionStatistics partitionInput(const std::string& input, const std::string& 
       if (isFlat)
       {
         mesh = openFlatMesh(input);
+        requireNoOtherCells(mesh);
       }
     });
   return isFlat ? partitionMesh(mesh, output, options, controller)

@@ -140,6 +140,16 @@ class Tool(unittest.TestCase):
                       ["partition", "a.vtk", "-o", "b.tipp"], ["query", "points.npy", "a.vtk", "-o", "b.csv"]):
             self.assertIn("pyvista.read('a.vtk')", self.refused(*words), words)
 
+    def test_lines_beside_triangles_are_named_where_numbers_of_cells_matter(self):
+        lines = self.folder / "lines.csv"
+        lines.write_text("x1,y1,x2,y2\n10,10,80,80\n")
+        self.run_tipp("delaunay", "points.npy", "-o", "c.vtp", "--constraints", lines)
+        content = (self.folder / "c.vtp").read_bytes()
+        line = content.replace(b'NumberOfVerts="0"', b'NumberOfVerts="1"')
+        (self.folder / "c.vtp").write_bytes(line)
+        for words in (["query", "points.npy", "c.vtp", "-o", "b.csv"], ["partition", "c.vtp", "-o", "b.tipp"], ["flatten", "c.vtp", "-o", "b"]):
+            self.assertIn("c.vtp", self.refused(*words), words)
+
     def test_a_mesh_that_is_not_there_is_reported_as_such(self):
         for words in (["flatten", "a.vtu", "-o", "b"], ["query", "points.npy", "a.vtu", "-o", "b.csv"], ["delaunay", "a.vtp", "-o", "b.npy"]):
             self.assertNotIn("VTK", self.refused(*words), words)
@@ -269,6 +279,14 @@ class Tool(unittest.TestCase):
                     self.assertEqual(raster.tags(ns="IMAGE_STRUCTURE")["LAYOUT"], "COG")
                 self.assertEqual(raster.crs.to_epsg(), 25832)
 
+    def hidden_mesh(self, name, points, changed):
+        """Writes a triangulation of points with other coordinates instead."""
+        np.save(self.folder / "h.npy", points)
+        self.run_tipp("delaunay", "h.npy", "-o", name)
+        content = (self.folder / name).read_bytes()
+        self.assertEqual(content.count(points.tobytes()), 1)
+        (self.folder / name).write_bytes(content.replace(points.tobytes(), changed.tobytes()))
+
     @unittest.skipIf(CXX is None, "TIPP_CXX does not name the C++ tool")
     def test_files_are_those_of_the_cxx_tool(self):
         np.save(self.folder / "places.npy", RANDOM.random((50, 2)) * 100)
@@ -280,6 +298,17 @@ class Tool(unittest.TestCase):
         commands += [(["delaunay", "points.npy", "-o", name, *options], name)
                      for name, options in (("a.vtu", []), ("a.vtp", ["--neighbors", "--map-duplicates"]), ("t.npy", []), ("a.14", []),
                                            ("c.vtu", ["--constraints", "lines.csv"]), ("m.tipp", ["--memory", "8M"]))]
+        some = self.points[:1000].copy()
+        some[5] = np.nan  # a corner that is not finite hides cells
+        self.hidden_mesh("n.vtp", self.points[:1000], some)
+        self.run_tipp("delaunay", "points.npy", "-o", "cells.npy")
+        (self.folder / "narrow").mkdir()
+        (self.folder / "cells.npy").rename(self.folder / "narrow" / "cells.npy")
+        np.save(self.folder / "narrow" / "points.npy", self.points.astype(np.float32))
+        np.savetxt(self.folder / "data.csv", np.c_[self.points, self.points[:, 0] % 7], "%.17g", ",", header="x,y,z,h", comments="")
+        commands += [(["delaunay", *words], words[2]) for words in (
+            ("places.npy", "-o", "p.vtu"), ("places.npy", "-o", "p.vtp"), ("data.csv", "-o", "d.vtp"), ("data.csv", "-o", "d.tipp", "--memory", "8M"))]
+        commands += [(["delaunay", "points.npy", "-o", "n.vtu", "--neighbors"], "n.vtu")]
         commands += [
             (["delaunay3d", "points.npy", "-o", "s.vtu"], "s.vtu"), (["points", "points.npy", "-o", "a.laz"], "a.laz"),
             (["contour", "m.tipp", "-o", "l.vtp", "--interval", 2], "l.vtp"),
@@ -294,7 +323,19 @@ class Tool(unittest.TestCase):
                          ("a.vtu", "rf.vti", [*grid, "--method", "conservative", "--covered-share"]),
                          ("m.tipp", "rg.npy", [*grid, "--method", "conservative"]), ("flat", "rh.npy", [*grid, *box, "--arrays", "depth", "--null", -1]),
                          ("s.vtu", "ri.vti", ["--dims", 9, 8, 7]), ("a.14", "rj.tif", ["--resolution", 1]),
-                         ("a.14", "rk.npy", grid), ("a.14", "rl.pvd", grid))]
+                         ("a.14", "rk.npy", grid), ("a.14", "rl.pvd", grid), ("a.vtp", "rm.vti", grid), ("narrow", "ro.vti", grid),
+                         ("narrow", "rp.npy", [*grid, *box, "--method", "conservative"]))]
+        commands += [(["remap", source, "--to", target, "-o", name, *options], name)
+                     for source, target, name, options in (
+                         ("a.vtu", "p.vtu", "ma.vtu", []), ("d.tipp", "p.vtp", "mb.vtp", ["--arrays", "h", "--null", -5]),
+                         ("d.tipp", "p.vtu", "mc.vtu", ["--memory", "100K", "--threads", 2]), ("d.vtp", "p.vtu", "mf.vtu", []), ("a.vtp", "p.vtp", "md.vtp", []),
+                         ("n.vtp", "p.vtu", "me.vtu", []))]
+        commands += [(["delaunay", "a.vtp", "-o", "va.vtu"], "va.vtu"), (["delaunay", "rb.vti", "-o", "vb.vtu"], "vb.vtu"),
+                     (["delaunay", "s.vtu", "-o", "vc.vtu"], "vc.vtu"), (["dem", "a.vtp", "-o", "vd.tif", "--resolution", 1], "vd.tif"),
+                     (["delaunay", "points.npy", "-o", "ve.vtu", "--constraints", "l.vtp"], "ve.vtu"),
+                     (["query", "places.npy", "a.vtp", "-o", "vf.csv"], "vf.csv"), (["query", "places.npy", "n.vtu", "-o", "vg.csv"], "vg.csv"),
+                     (["partition", "a.vtp", "-o", "vh.tipp"], "vh.tipp"), (["contour", "a.vtp", "-o", "vi.vtp", "--interval", 2], "vi.vtp"),
+                     (["flatten", "d.vtp", "-o", "flat2"], "flat2")]
         for words, name in commands:
             with self.subTest(" ".join(map(str, words))):
                 contents = []
@@ -303,13 +344,28 @@ class Tool(unittest.TestCase):
                     path = self.folder / name
                     files = sorted(path.rglob("*")) if path.is_dir() else [path]
                     contents.append([(file.name, file.read_bytes()) for file in files if file.is_file()])
-                    if name == "flat" and number == 0:  # it must not exist yet
-                        path.rename(self.folder / "first")
+                    if name in ("flat", "flat2") and number == 0:  # it must not exist yet
+                        path.rename(self.folder / f"first of {name}")
                 self.assertTrue(contents[0] == contents[1], "the files differ")
 
     @unittest.skipIf(CXX is None, "TIPP_CXX does not name the C++ tool")
     def test_messages_are_those_of_the_cxx_tool(self):
-        for words in (["info", "points.npy"], ["dem", "--help"], ["delaunay", "--help"], ["query", "--help"], ["--version"],
+        self.run_tipp("delaunay", "points.npy", "-o", "b.vtu")
+        self.run_tipp("resample", "b.vtu", "-o", "b.vti", "--dims", 5, 5)
+        np.save(self.folder / "other.npy", self.points[:2000] + [3, 0, 1])
+        self.run_tipp("delaunay", "other.npy", "-o", "c.vtp")
+        self.run_tipp("delaunay", "points.npy", "-o", "m.tipp", "--memory", "8M")
+        self.run_tipp("delaunay3d", "other.npy", "-o", "s.vtu")
+        np.save(self.folder / "far.npy", self.points[:100] + 1000)
+        self.run_tipp("delaunay", "far.npy", "-o", "far.vtu")
+        for words in (["volume", "b.vtu", "c.vtp"], ["volume", "m.tipp", "c.vtp"], ["volume", "c.vtp", "m.tipp", "--memory", "50K"],
+                      ["volume", "b.vtu", "c.vtp", "--bounds", 20, 70, 30, 80], ["volume", "b.vtu", "far.vtu"], ["volume", "--help"],
+                      ["volume", "b.vtu", "c.vtp", "--bounds", 500, 600, 0, 1], ["volume", "b.vtu", "s.vtu"], ["volume", "b.vtu", "absent.vtu"],
+                      ["remap", "--help"], ["remap", "b.vtu", "--to", "c.vtp", "-o", "r.vtu"], ["remap", "b.vtu", "--to", "absent.vtp", "-o", "r.vtp"],
+                      ["remap", "b.vtu", "--to", "c.vtp", "-o", "r.vtp", "--arrays", "nothing"], ["remap", "s.vtu", "--to", "c.vtp", "-o", "r.vtp"],
+                      ["remap", "b.vtu", "--to", "s.vtu", "-o", "r.vtu"], ["remap", "b.vtu", "--to", "points.npy", "-o", "r.vtu"],
+                      ["info", "c.vtp"], ["info", "b.vti"], ["--help"],
+                      ["info", "points.npy"], ["dem", "--help"], ["delaunay", "--help"], ["query", "--help"], ["--version"],
                       ["resample", "--help"], ["check", "--help"], ["resample", "a.vtu", "-o", "a.npy"],
                       ["resample", "absent.vtu", "-o", "a.npy", "--dims", 2, 2],
                       ["dem", "points.npy", "-o", "a.tif"], ["dem", "points.npy", "-o", "a.xyz", "--resolution", 1],
@@ -326,13 +382,14 @@ class Tool(unittest.TestCase):
         self.run_tipp("delaunay3d", "points.npy", "-o", "s.npy")
         self.run_tipp("delaunay3d", "points.npy", "-o", "s.vtu", "--neighbors")
         self.run_tipp("delaunay", "points.npy", "-o", "n.vtu", "--neighbors")
+        self.run_tipp("delaunay", "points.npy", "-o", "p.vtp")
         (self.folder / "box.csv").write_text("x1,y1,x2,y2\n0,0,90,0\n90,0,90,80\n90,80,0,80\n0,80,0,0\n0,0,90,80\n")
         self.run_tipp("mesh", "box.csv", "-o", "q.14", "--min-angle", 25.5, "--max-area", 20)
         np.save(self.folder / "cut.npy", np.load(self.folder / "a.npy")[5:])
         np.save(self.folder / "hole.npy", np.load(self.folder / "s.npy")[5:])
         for words in (["points.npy", "a.npy"], ["points.npy", "m.tipp", "--tie-rule"], ["points.npy", "s.npy"], ["points.npy", "cut.npy"],
                       ["points.npy", "hole.npy"], ["points.npy", "cut.npy", "--boundary-free"], ["points.npy", "c.vtu", "--constraints", "lines.csv"],
-                      ["points.npy", "c.vtu"], ["points.npy", "s.vtu"], ["points.npy", "n.vtu"],
+                      ["points.npy", "c.vtu"], ["points.npy", "s.vtu"], ["points.npy", "n.vtu"], ["points.npy", "p.vtp"], ["p.vtp", "p.vtp"],
                       ["q.14", "--quality", "25.5", "--constraints", "box.csv"], ["q.14", "--quality", "33.3", "--constraints", "box.csv"],
                       ["q.14", "--quality", "25.5", "--max-area", 20, "--constraints", "box.csv"], ["points.npy", "a.npy", "--quality", "61"], ["points.npy"],
                       ["points.npy", "a.npy", "--quality", "x"], ["points.npy", "a.npy", "--quality", "0.1", "--max-area", 1e-3]):

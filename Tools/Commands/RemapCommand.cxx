@@ -2,18 +2,15 @@
 #include "Commands/Commands.h"
 #include "Commands/PointArguments.h"
 #include "Commands/Report.h"
-#include "Commands/VisitMesh.h"
+#include "Commands/VisitSurface.h"
 #include "Console/Process.h"
 #include "Files/IOError.h"
+#include "Files/InputFile.h"
 #include "Files/PendingOutput.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Stopwatch.h"
 #include "Ranks/Communicator.h"
-#include "Sampling/RemapMesh.h"
-#include "Vtk/DataSets.h"
-
-#include "vtkPointSet.h"
-#include "vtkPolyData.h"
+#include "Sampling/RemapSurface.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -40,18 +37,6 @@ struct RemapArguments
   std::string Memory = "1G"; ///< of the part of a partitioned source that is in memory at a time
 };
 
-/// Throws IOError if the output's extension does not fit the target's type.
-void requireExtension(const RemapArguments& arguments, vtkPointSet* target)
-{
-  const std::string wanted = vtkPolyData::SafeDownCast(target) ? ".vtp" : ".vtu";
-  const std::string& path = arguments.Output;
-  if (path.size() < wanted.size() || path.substr(path.size() - wanted.size()) != wanted)
-  {
-    throw IOError(
-      path, "would have the cells of " + arguments.Target + ": name it " + wanted + ".");
-  }
-}
-
 /// Averages on all ranks, and writes the file on the first one. Collective.
 void remap(const RemapArguments& arguments, Communicator& ranks)
 {
@@ -64,12 +49,22 @@ void remap(const RemapArguments& arguments, Communicator& ranks)
   const ThreadLimit limit(arguments.Threads);
   const auto bar = ranks.isFirst() ? std::make_unique<ProgressBar>("Remapping") : nullptr;
   const Report report = progressOn(bar);
-  const vtkSmartPointer<vtkPointSet> target = readPointSet(arguments.Target);
-  requireExtension(arguments, target);
-  MeshRemapper remapper(target, arguments.Arrays, threadCount(arguments.Threads));
+  const SurfaceReading reading{ "The source mesh", { 0, 1 }, *parseMemorySize(arguments.Memory),
+    arguments.Threads };
+  const TargetSurface target =
+    readTarget(arguments.Target, { "The target mesh", { 0, 1 }, reading.Memory, arguments.Threads },
+      [&arguments](const std::string& extension)
+      {
+        if (extensionOf(arguments.Output) != extension)
+        {
+          throw IOError(arguments.Output,
+            "would have the cells of " + arguments.Target + ": name it " + extension + ".");
+        }
+      });
+  SurfaceRemapper remapper(target.Surface, arguments.Arrays, threadCount(arguments.Threads));
   remapper.share(ranks);
-  if (!visitMesh(arguments.Source, *parseMemorySize(arguments.Memory), arguments.Threads, report,
-        [&remapper](vtkPointSet* part, const Report& ofPart)
+  if (!visitSurface(arguments.Source, reading, report,
+        [&remapper](const SurfacePart& part, const Report& ofPart)
         { return remapper.add(part, ofPart); }))
   {
     throw RankFailure(ranks.rank(), true, "The run was stopped.");
@@ -79,10 +74,9 @@ void remap(const RemapArguments& arguments, Communicator& ranks)
   {
     return;
   }
-  const vtkSmartPointer<vtkPointSet> result = remapper.finish(arguments.Null);
-  writeXmlFile(arguments.Output, before, result);
-  fmt::print("{} cells, {} of them covered, {:.3f} s\n", std::int64_t(result->GetNumberOfCells()),
-    remapper.covered(), watch.seconds());
+  target.Write(arguments.Output, before, remapper.finish(arguments.Null));
+  fmt::print("{} cells, {} of them covered, {:.3f} s\n", target.Surface.Cells, remapper.covered(),
+    watch.seconds());
   if (remapper.coveredTwice() > 0)
   {
     fmt::print(stderr,

@@ -2,16 +2,13 @@
 #include "Commands/Commands.h"
 #include "Commands/PointArguments.h"
 #include "Commands/Report.h"
-#include "Commands/VisitMesh.h"
+#include "Commands/VisitSurface.h"
 #include "Console/Process.h"
 #include "Files/IOError.h"
 #include "Parallel/ParallelFor.h"
 #include "Partitioned/PartitionedMesh.h"
 #include "Predicates/Geometry.h"
 #include "Sampling/CompareSurfaces.h"
-
-#include "vtkPointSet.h"
-#include "vtkSmartPointer.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -38,20 +35,25 @@ struct VolumeArguments
   std::string Memory = "1G"; ///< of the part of a partitioned mesh that is in memory at a time
 };
 
-/// Reads a mesh into memory. Returns null after an interrupt.
-vtkSmartPointer<vtkPointSet> readWhole(
+SurfaceReading readingOf(const std::string& path, const VolumeArguments& arguments)
+{
+  return { path, { 0, 1, 2 }, *parseMemorySize(arguments.Memory), arguments.Threads };
+}
+
+/// Reads a mesh into memory. Returns nullopt after an interrupt.
+std::optional<SurfacePart> readWhole(
   const std::string& path, const VolumeArguments& arguments, const Report& report)
 {
-  vtkSmartPointer<vtkPointSet> whole;
-  const bool isDone =
-    visitMesh(path, std::numeric_limits<std::uint64_t>::max(), arguments.Threads, report,
-      [&whole](vtkPointSet* part, const Report& ofPart)
-      {
-        whole = vtkSmartPointer<vtkPointSet>::Take(part->NewInstance());
-        whole->ShallowCopy(part);
-        return ofPart(1);
-      });
-  return isDone ? whole : nullptr;
+  SurfaceReading reading = readingOf(path, arguments);
+  reading.Memory = std::numeric_limits<std::uint64_t>::max();
+  SurfacePart whole;
+  const bool isDone = visitSurface(path, reading, report,
+    [&whole](const SurfacePart& part, const Report& ofPart)
+    {
+      whole = part;
+      return ofPart(1);
+    });
+  return isDone ? std::make_optional(std::move(whole)) : std::nullopt;
 }
 
 void print(const CutFill& result)
@@ -74,16 +76,15 @@ int compare(const VolumeArguments& arguments)
   {
     std::swap(first, second);
   }
-  const vtkSmartPointer<vtkPointSet> whole = readWhole(first, arguments, partOf(report, 0, 0.1));
+  std::optional<SurfacePart> whole = readWhole(first, arguments, partOf(report, 0, 0.1));
   if (!whole)
   {
     return reportInterrupt();
   }
   SurfaceComparison comparison(
-    whole, { first, second }, arguments.Bounds, threadCount(arguments.Threads));
-  if (!visitMesh(second, *parseMemorySize(arguments.Memory), arguments.Threads,
-        partOf(report, 0.1, 1),
-        [&comparison](vtkPointSet* part, const Report& ofPart)
+    std::move(*whole), { first, second }, arguments.Bounds, threadCount(arguments.Threads));
+  if (!visitSurface(second, readingOf(second, arguments), partOf(report, 0.1, 1),
+        [&comparison](const SurfacePart& part, const Report& ofPart)
         { return comparison.add(part, ofPart); }))
   {
     return reportInterrupt();
