@@ -9,7 +9,7 @@ set -eu
 wheel=$(realpath "$1")
 python=${2:-python3}
 cd "$(dirname "$0")/.."
-work=build-wheel/tests
+work=build-wheel/tests-$("$python" -c 'import sys; print("%d.%d" % sys.version_info[:2])')
 mkdir -p "$work"
 export PYTHONDONTWRITEBYTECODE=1
 
@@ -43,7 +43,7 @@ runs_tool() {
 [ ! -x build/bin/tipp ] || export TIPP_CXX="$PWD/build/bin/tipp"
 
 environment alone numpy
-runs_tool alone Testing/Wheel/TestTool.py
+runs_tool alone Testing/Wheel/TestTool.py Testing/Wheel/TestNetcdf.py
 runs alone Testing/Wheel/TestWithoutVtk.py Testing/Wheel/TestConstraintsWithoutVtk.py Testing/Wheel/TestTetrahedra.py \
   Testing/Wheel/TestVtkFiles.py Testing/Wheel/TestInterpreter.py Testing/Wheel/TestLinkage.py Testing/Wheel/TestPage.py \
   Testing/Wheel/run_readme.py Testing/Python/TestBounds.py Testing/Python/TestCheck.py Testing/Python/TestInputs.py \
@@ -52,8 +52,8 @@ environment oldest 'numpy<2'
 runs oldest Testing/Wheel/TestWithoutVtk.py Testing/Wheel/TestConstraintsWithoutVtk.py
 environment scipy numpy scipy scikit-learn
 runs scipy Testing/Wheel/TestScipyHabits.py Testing/Wheel/TestBesideOpenMP.py
-environment tool numpy rasterio pyproj scipy laspy lazrs
-runs_tool tool Testing/Wheel/TestTool.py Testing/Python/TestDemFiles.py Testing/Python/TestLasWriting.py
+environment tool numpy rasterio pyproj scipy laspy lazrs netCDF4
+runs_tool tool Testing/Wheel/TestTool.py Testing/Wheel/TestNetcdf.py Testing/Python/TestDemFiles.py Testing/Python/TestLasWriting.py
 environment pyvista 'vtk>=9.7,<9.8' pyvista shapely geopandas laspy meshio polars rioxarray mypy pyright
 runs pyvista Testing/Wheel/TestPyVista.py Testing/Wheel/TestFilters.py Testing/Python/TestArguments.py Testing/Python/TestArrays.py \
   Testing/Python/TestBounds.py Testing/Python/TestCheck.py Testing/Python/TestConstraints.py Testing/Python/TestDelaunay3D.py \

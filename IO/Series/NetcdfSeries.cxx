@@ -4,6 +4,7 @@
 #include "Files/IOError.h"
 #include "Files/TextFile.h"
 #include "Netcdf/NetcdfFile.h"
+#include "Netcdf/NetcdfHook.h"
 #include "Series/CellSeries.h"
 #include "Series/LocatedVariables.h"
 #include "Series/NetcdfMesh.h"
@@ -287,6 +288,15 @@ private:
 
 std::unique_ptr<MeshSeries> openNetcdfSeries(const std::string& path, const SeriesOptions& options)
 {
+#ifdef TIPP_WITHOUT_VTK
+  const NetcdfHook& hook = netcdfHook();
+  const std::string missing =
+    hook.missing ? hook.missing() : "is a NetCDF file, which this build does not read.";
+  if (!missing.empty())
+  {
+    throw IOError(path, missing);
+  }
+#endif
   return std::make_unique<NetcdfSeries>(path, options);
 }
 

@@ -6,21 +6,38 @@
 #include "Series/VtkHdfSeries.h"
 #include "Series/WriteUgrid.h"
 
+#include <string>
+
 namespace tipp
 {
+namespace
+{
 
+#ifdef TIPP_WITHOUT_VTK
+constexpr const char* advice = "; write ";
+constexpr const char* vtkHdfAdvice = "which the Python wheel does not read; convert it.";
+#else
+constexpr const char* advice =
+  "; install the NetCDF library (Debian's libnetcdf-dev) and build again, or write ";
+constexpr const char* vtkHdfAdvice =
+  "which this build of TIPP does not read; install the NetCDF library (Debian's libnetcdf-dev) and "
+  "build TIPP again.";
+#endif
+
+} // namespace
+
+#ifndef TIPP_WITHOUT_VTK
 std::unique_ptr<MeshSeries> openNetcdfSeries(const std::string& path, const SeriesOptions&)
 {
   throw IOError(path,
     "is a NetCDF file, which this build of TIPP does not read; install the NetCDF library "
     "(Debian's libnetcdf-dev) and build TIPP again.");
 }
+#endif
 
 std::unique_ptr<MeshSeries> openVtkHdfSeries(const std::string& path, const SeriesOptions&)
 {
-  throw IOError(path,
-    "is a VTKHDF file, which this build of TIPP does not read; install the NetCDF library "
-    "(Debian's libnetcdf-dev) and build TIPP again.");
+  throw IOError(path, std::string("is a VTKHDF file, ") + vtkHdfAdvice);
 }
 
 bool isVtkHdfSeries(const std::string&)
@@ -32,8 +49,7 @@ std::unique_ptr<SeriesOutput> createNetcdfSeries(
   const std::string& path, const SeriesDescription&, const PathState&)
 {
   throw IOError(path,
-    "cannot be written: this build has no NetCDF; install the NetCDF library (Debian's "
-    "libnetcdf-dev) and build again, or write .tif, .npy or .pvd.");
+    std::string("cannot be written: this build writes no NetCDF") + advice + ".tif, .npy or .pvd.");
 }
 
 void requireNetcdfFor(const std::string& output)
@@ -41,8 +57,7 @@ void requireNetcdfFor(const std::string& output)
   if (isOpenedBy(output, Opener::Netcdf))
   {
     throw IOError(output,
-      "cannot be written: this build has no NetCDF; install the NetCDF library (Debian's "
-      "libnetcdf-dev) and build again, or write another format.");
+      std::string("cannot be written: this build writes no NetCDF") + advice + "another format.");
   }
 }
 

@@ -230,6 +230,8 @@ void addTriangulateFunctions(nb::module_& module);
 void addFileFunctions(nb::module_& module);
 void addGridFunctions(nb::module_& module);
 void addMeshFunctions(nb::module_& module);
+/// Sets what reads NetCDF files.
+void addNetcdfFunctions();
 void addOverlapFunctions(nb::module_& module);
 void addQueryClass(nb::module_& module);
 void addToolFunctions(nb::module_& module);

@@ -127,6 +127,7 @@ NB_MODULE(_core, module)
     });
   tipp::python::addTriangulateFunctions(module);
   tipp::python::addMeshFunctions(module);
+  tipp::python::addNetcdfFunctions();
   tipp::python::addOverlapFunctions(module);
   tipp::python::addGridFunctions(module);
   tipp::python::addFileFunctions(module);

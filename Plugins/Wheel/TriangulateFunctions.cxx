@@ -5,8 +5,8 @@
 #include "Constraints/Insertion/TriangulateConstrained.h"
 #include "Constraints/PositionIndex.h"
 #include "Constraints/ResolveCrossings.h"
-
 #include "Constraints/SurfaceValues.h"
+#include "Files/RawArray.h"
 #include "InMemory/AlphaShape.h"
 #include "InMemory/TriangulatePoints.h"
 #include "Parallel/ParallelFor.h"

@@ -1,0 +1,129 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The command `tipp` of the wheel reads the output of models in NetCDF by netCDF4 or h5netcdf, where one is installed. If
+the variable TIPP_CXX names the C++ tool, the two are compared.
+
+Usage: TestNetcdf.py TIPP [unittest arguments]
+"""
+import importlib.util
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+
+TIPP = os.path.abspath(sys.argv.pop(1))
+CXX = os.environ.get("TIPP_CXX")
+HAS_NETCDF4 = importlib.util.find_spec("netCDF4") is not None
+HAS_ANY = HAS_NETCDF4 or importlib.util.find_spec("h5netcdf") is not None
+SHARED = pathlib.Path(__file__).resolve().parents[2].parent / "shared" / "data" / "netcdf"
+
+
+def write_ugrid(path, form="NETCDF4"):
+    """A mesh of triangles and a quadrilateral with depths, and levels and means at three times, one value missing."""
+    import netCDF4
+
+    with netCDF4.Dataset(path, "w", format=form) as file:
+        for name, size in (("time", None), ("node", 9), ("face", 7), ("corner", 4)):
+            file.createDimension(name, size)
+        file.createVariable("mesh", "i4").setncatts({
+            "cf_role": "mesh_topology", "topology_dimension": np.int32(2), "node_coordinates": "x y", "face_node_connectivity": "corners"})
+        x, y = np.meshgrid(np.arange(3.0), np.arange(3.0))
+        for name, values in (("x", x), ("y", y)):
+            variable = file.createVariable(name, "f8", ("node",))
+            variable.setncatts({"standard_name": f"projection_{name}_coordinate", "units": "m"})
+            variable[:] = values.ravel()
+        corners = file.createVariable("corners", "i4", ("face", "corner"), fill_value=-1)
+        corners.start_index = np.int32(1)
+        corners[:] = np.ma.masked_equal([[1, 2, 4, 0], [2, 5, 4, 0], [2, 3, 5, 0], [3, 6, 5, 0], [4, 5, 7, 0], [5, 8, 7, 0], [5, 6, 9, 8]], 0)
+        time = file.createVariable("time", "f8", ("time",))
+        time.units = "hours since 2020-01-01 00:00:00"
+        time[:] = [0, 1, 2.5]
+        depth = file.createVariable("depth", "f4", ("node",))
+        depth.setncatts({"mesh": "mesh", "location": "node", "units": "m"})
+        depth[:] = np.arange(9)
+        level = file.createVariable("zeta", "i2", ("time", "node"), fill_value=-99)
+        level.setncatts({"mesh": "mesh", "location": "node", "scale_factor": 0.5, "add_offset": np.float64(10)})
+        level.set_auto_maskandscale(False)
+        level[:] = np.arange(27).reshape(3, 9)
+        level[1, 4] = -99
+        mean = file.createVariable("flow", "f8", ("time", "face"))
+        mean.setncatts({"mesh": "mesh", "location": "face"})
+        mean[:] = np.arange(21).reshape(3, 7)
+
+
+class Netcdf(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def run_words(self, *words, tool=TIPP):
+        return subprocess.run([tool, *map(str, words)], cwd=self.folder, capture_output=True, text=True)
+
+    def run_tipp(self, *words, tool=TIPP):
+        run = self.run_words(*words, tool=tool)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        return run.stdout
+
+    @unittest.skipIf(HAS_ANY, "netCDF4 or h5netcdf is installed")
+    def test_the_package_to_install_is_named(self):
+        (self.folder / "a.nc").write_bytes(b"CDF\1")
+        run = self.run_words("resample", "a.nc", "-o", "b.npy", "--dims", 3, 3)
+        self.assertEqual((run.returncode, run.stderr.count("\n")), (1, 1), run.stderr)
+        self.assertIn("pip install netCDF4", run.stderr)
+
+    @unittest.skipUnless(HAS_NETCDF4, "netCDF4 is not installed")
+    def test_steps_are_sampled(self):
+        for form in ("NETCDF4", "NETCDF3_CLASSIC"):
+            write_ugrid(self.folder / "a.nc", form)
+            self.run_tipp("resample", "a.nc", "-o", "b.npy", "--arrays", "zeta", "--step", 2, "--dims", 3, 3)
+            np.testing.assert_allclose(np.load(self.folder / "b.npy"), 10 + 0.5 * np.arange(18.0, 27).reshape(3, 3), err_msg=form)
+
+    @unittest.skipUnless(HAS_NETCDF4, "netCDF4 is not installed")
+    def test_damaged_files_are_refused_with_one_sentence(self):
+        write_ugrid(self.folder / "a.nc")
+        whole = (self.folder / "a.nc").read_bytes()
+        for content in (b"", b"CDF\1", whole[:100], whole[:len(whole) // 2], b"x" * 5000, whole[:600] + b"\xff" * 400 + whole[1000:]):
+            (self.folder / "b.nc").write_bytes(content)
+            run = self.run_words("resample", "b.nc", "-o", "b.npy", "--dims", 3, 3)
+            self.assertLessEqual(run.stderr.count("\n"), 2, run.stderr)
+            self.assertIn(run.returncode, (0, 1), run.stderr)
+            self.assertNotIn("Traceback", run.stderr)
+
+    @unittest.skipUnless(HAS_NETCDF4 and CXX, "netCDF4 is not installed, or TIPP_CXX does not name the C++ tool")
+    def test_results_are_those_of_the_cxx_tool(self):
+        write_ugrid(self.folder / "a.nc")
+        write_ugrid(self.folder / "c.nc", "NETCDF3_64BIT_OFFSET")
+        grid = ["--dims", 21, 17]
+        runs = [(path, [*grid, *options], name) for path in ("a.nc", "c.nc")
+                for name, options in (("b.npy", ["--step", 1, "--arrays", "zeta"]), ("b.tif", ["--step", "all", "--arrays", "flow"]),
+                                      ("b.npy", ["--reduce", "max", "--arrays", "zeta"]), ("b.vti", ["--step", 0]))]
+        runs += [(SHARED / name, [*grid, "--step", 0, "--arrays", array], "b.npy")
+                 for name, array in (("adcirc_1t.nc", "ssh"), ("dflow_simplebox_hex7_map.nc", "Mesh2D_s1")) if (SHARED / name).exists()]
+        if not SHARED.exists():
+            print("../shared/data is not there: no output of real models is read")
+        for path, options, name in runs:
+            with self.subTest(f"{path} {options}"):
+                contents = []
+                for tool in (TIPP, CXX):
+                    run = self.run_words("resample", path, "-o", name, *options, tool=tool)
+                    found = sorted(file for file in self.folder.iterdir() if file.name.startswith("b"))
+                    contents.append((run.returncode, run.stderr, [(file.name, file.read_bytes()) for file in found]))
+                    for file in found:
+                        file.unlink()
+                self.assertEqual(contents[0][:2], contents[1][:2])
+                self.assertTrue(contents[0] == contents[1], "the files differ")
+
+    @unittest.skipUnless(HAS_NETCDF4 and CXX, "netCDF4 is not installed, or TIPP_CXX does not name the C++ tool")
+    def test_descriptions_are_those_of_the_cxx_tool(self):
+        write_ugrid(self.folder / "a.nc")
+        for words in (["info", "a.nc"], ["info", "absent.nc"]):
+            first, second = (self.run_words(*words, tool=tool) for tool in (TIPP, CXX))
+            self.assertEqual((first.returncode, first.stdout, first.stderr), (second.returncode, second.stdout, second.stderr))
+
+
+if __name__ == "__main__":
+    unittest.main()
