@@ -2,6 +2,9 @@
 #ifndef tippBuffer_h
 #define tippBuffer_h
 
+#include "Arrays/GrowingMemory.h"
+
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -25,6 +28,13 @@ public:
     : Data(allocate(size))
     , Size(size)
   {
+  }
+  /// An array of `size` zeros in other memory, which has room for them.
+  Buffer(std::size_t size, std::unique_ptr<GrowingMemory> memory)
+    : Size(size)
+  {
+    T* const data = static_cast<T*>(memory->data());
+    this->Data = std::unique_ptr<T, Free>(data, Free{ std::move(memory) });
   }
   Buffer(Buffer&& other) noexcept
     : Data(std::move(other.Data))
@@ -72,10 +82,17 @@ public:
   /// Shortens the array to its first `size` elements; the memory stays allocated.
   void truncate(std::size_t size) { this->Size = size; }
 
-  /// Returns the memory. The caller owns it and must free it with free(). Never null, not even for
-  /// an empty array, since VTK and NumPy reject null arrays.
+  /// Returns the memory, or a copy if the array lies in other memory. The caller owns it and must
+  /// free it with free(). Never null, not even for an empty array, since VTK and NumPy reject null
+  /// arrays.
   T* release()
   {
+    if (this->Data.get_deleter().Memory)
+    {
+      Buffer copy(this->Size);
+      std::copy(this->begin(), this->end(), copy.begin());
+      *this = std::move(copy);
+    }
     this->Size = 0;
     return this->Data ? this->Data.release() : static_cast<T*>(std::malloc(sizeof(T)));
   }
@@ -83,7 +100,19 @@ public:
 private:
   struct Free
   {
-    void operator()(T* memory) const { std::free(memory); }
+    std::unique_ptr<GrowingMemory> Memory = nullptr; ///< that of the array; null: malloc's
+
+    void operator()(T* memory)
+    {
+      if (this->Memory)
+      {
+        this->Memory.reset();
+      }
+      else
+      {
+        std::free(memory);
+      }
+    }
   };
 
   static T* allocate(std::size_t size)

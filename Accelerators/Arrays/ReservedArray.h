@@ -2,10 +2,14 @@
 #ifndef tippReservedArray_h
 #define tippReservedArray_h
 
+#include "Arrays/GrowingMemory.h"
+
 #include <sys/mman.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
+#include <memory>
 #include <new>
 #include <type_traits>
 #include <unistd.h>
@@ -15,7 +19,8 @@ namespace tipp
 {
 
 /// An array of zeros that never moves. It reserves addresses for `most` elements, and takes memory
-/// for the elements that are written, so that threads can append while others read.
+/// for the elements that are written, so that threads can append while others read. Or it lies in
+/// other memory, with the same properties: elements are then used after grow() only.
 template <typename T>
 class ReservedArray
 {
@@ -47,22 +52,35 @@ public:
       }
     }
   }
-  ReservedArray(ReservedArray&& other) noexcept { *this = std::move(other); }
-  ReservedArray& operator=(ReservedArray&& other) noexcept
+  /// Uses other memory, which has addresses for `most` elements.
+  ReservedArray(std::size_t most, std::unique_ptr<GrowingMemory> memory)
+    : Data(static_cast<T*>(memory->data()))
+    , Most(most)
+    , Memory(std::move(memory))
   {
-    std::swap(this->Data, other.Data);
-    std::swap(this->Most, other.Most);
-    return *this;
   }
+  ReservedArray(const ReservedArray&) = delete;
+  ReservedArray& operator=(const ReservedArray&) = delete;
   ~ReservedArray()
   {
-    if (this->Data)
+    if (this->Data && !this->Memory)
     {
       munmap(this->Data, this->Most * sizeof(T));
     }
   }
 
   std::size_t capacity() const { return this->Most; }
+  /// Makes the first `size` elements usable, at most capacity(). Threads may call it at the same
+  /// time. Throws what GrowingMemory::grow() throws.
+  void grow(std::size_t size)
+  {
+    if (this->Memory && size > this->Usable.load(std::memory_order_acquire))
+    {
+      // Another thread's larger number may be replaced; that only costs a further call.
+      this->Usable.store(
+        this->Memory->grow(size * sizeof(T)) / sizeof(T), std::memory_order_release);
+    }
+  }
   T* data() { return this->Data; }
   const T* data() const { return this->Data; }
   T& operator[](std::size_t i) { return this->Data[i]; }
@@ -73,6 +91,8 @@ private:
 
   T* Data = nullptr;
   std::size_t Most = 0;
+  std::unique_ptr<GrowingMemory> Memory; ///< null: addresses of its own
+  std::atomic<std::size_t> Usable{ 0 };  ///< elements, in other memory
 };
 
 } // namespace tipp

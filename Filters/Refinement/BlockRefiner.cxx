@@ -476,6 +476,7 @@ void BlockRefiner::insert(Point2 p, Index origin)
   RefinementMesh& mesh = this->Mesh;
   const Index vertex =
     this->PointPlaces.take(mesh.Points, mesh.PointEnd, RefinementMesh::PointsInGroup);
+  mesh.Origins.grow(std::size_t(vertex) + 1);
   mesh.Points[std::size_t(vertex)] = p;
   mesh.Origins[std::size_t(vertex)] = origin;
   const std::size_t count = this->RimEnd;

@@ -28,9 +28,9 @@ struct BorderEdge
 class Border
 {
 public:
-  Border(const std::vector<double>& xy, TrianglesView triangles,
+  Border(const NodesView& nodes, TrianglesView triangles,
     const std::vector<std::array<std::int64_t, 2>>& segments)
-    : XY(xy)
+    : Nodes(nodes)
   {
     this->findEdges(triangles, segments);
     for (std::size_t i = 0; i < this->Edges.size(); ++i)
@@ -70,10 +70,7 @@ private:
     }
   };
 
-  Point2 at(std::int64_t node) const
-  {
-    return { this->XY[2 * std::size_t(node)], this->XY[2 * std::size_t(node) + 1] };
-  }
+  Point2 at(std::int64_t node) const { return this->Nodes[std::size_t(node)]; }
   Point2 from(std::size_t edge) const { return this->at(this->Edges[edge].From); }
   Point2 to(std::size_t edge) const { return this->at(this->Edges[edge].To); }
   bool isRising(std::size_t edge) const { return this->to(edge).y > this->from(edge).y; }
@@ -84,7 +81,7 @@ private:
   std::size_t next(std::size_t edge) const;
   std::optional<Point2> pointAt(double y, std::int64_t loop) const;
 
-  const std::vector<double>& XY;
+  const NodesView& Nodes;
   std::vector<BorderEdge> Edges;               ///< by From
   std::vector<std::vector<std::size_t>> Loops; ///< edges, in order
   Box2 Bounds = Box2::empty();
@@ -95,7 +92,7 @@ private:
 void Border::findEdges(
   TrianglesView triangles, const std::vector<std::array<std::int64_t, 2>>& segments)
 {
-  std::vector<bool> isEnd(this->XY.size() / 2, false);
+  std::vector<bool> isEnd(this->Nodes.size(), false);
   std::vector<BorderEdge> sides; // in both directions
   for (const auto& [a, b] : segments)
   {
@@ -260,10 +257,10 @@ std::optional<Point2> Border::pointIn(std::size_t loop) const
 
 } // namespace
 
-HolePoints findHolePoints(const std::vector<double>& xy, TrianglesView triangles,
+HolePoints findHolePoints(const NodesView& nodes, TrianglesView triangles,
   const std::vector<std::array<std::int64_t, 2>>& segments)
 {
-  const Border border(xy, triangles, segments);
+  const Border border(nodes, triangles, segments);
   HolePoints holes;
   for (std::size_t loop = 0; loop < border.loops(); ++loop)
   {

@@ -23,8 +23,8 @@ struct HolePoints
 /// Finds a point in each hole: in each bounded part of the plane that no triangle covers. `xy`: x
 /// and y of the nodes, interleaved. `segments`: pairs of nodes, among them all edges of the border.
 /// The triangles are counter-clockwise and do not overlap. One thread.
-VTKTIPPFILTERS_EXPORT HolePoints findHolePoints(const std::vector<double>& xy,
-  TrianglesView triangles, const std::vector<std::array<std::int64_t, 2>>& segments);
+VTKTIPPFILTERS_EXPORT HolePoints findHolePoints(const NodesView& nodes, TrianglesView triangles,
+  const std::vector<std::array<std::int64_t, 2>>& segments);
 
 } // namespace tipp
 

@@ -362,13 +362,14 @@ private:
 };
 
 /// Returns the positions of the crossings, followed by the added points.
-Buffer<double> joinNew(const std::vector<CrossingPoint>& crossings, Buffer<double> added)
+Buffer<double> joinNew(
+  const std::vector<CrossingPoint>& crossings, Buffer<double> added, PagedMemory* memory)
 {
   if (crossings.empty())
   {
     return added;
   }
-  Buffer<double> joined(2 * crossings.size() + added.size());
+  Buffer<double> joined = bufferIn<double>(memory, 2 * crossings.size() + added.size());
   double* to = joined.data();
   for (const CrossingPoint& crossing : crossings)
   {
@@ -429,7 +430,8 @@ PointsMesh meshPoints(
     AddedBlends(all.view(), result.Mesh)
       .append(start.Mesh.Ids32, threadCount(options.Threads), result.Blends);
   }
-  result.NewXY = joinNew(crossings, std::move(result.Mesh.AddedXY));
+  result.NewXY = joinNew(crossings, std::move(result.Mesh.AddedXY), options.Memory);
+  result.Crossings = std::int64_t(crossings.size());
   return result;
 }
 

@@ -55,6 +55,7 @@ struct PointsMesh
 {
   RefinedMesh Mesh;
   Buffer<double> NewXY;           ///< of the new points
+  std::int64_t Crossings = 0;     ///< the number of those that are crossings
   std::vector<PointBlend> Blends; ///< by new point: the points before it that it lies between
   bool Aborted = false;           ///< Progress stopped the run; there are no triangles then
 };

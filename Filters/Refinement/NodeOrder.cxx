@@ -236,7 +236,7 @@ std::int64_t bandwidthOf(TrianglesView triangles, const std::vector<std::int64_t
 }
 
 void applyNodeOrder(
-  const std::vector<std::int64_t>& order, PointTable& points, std::vector<std::int64_t>& triangles)
+  const std::vector<std::int64_t>& order, PointTable& points, Buffer<std::int32_t>& triangles)
 {
   std::vector<double> xy(points.XY.size());
   for (std::size_t i = 0; i < order.size(); ++i)
@@ -253,9 +253,9 @@ void applyNodeOrder(
     column.Values = std::move(values);
   }
   const std::vector<std::int64_t> newIndex = inverseOrder(order);
-  for (std::int64_t& id : triangles)
+  for (std::int32_t& id : triangles)
   {
-    id = newIndex[std::size_t(id)];
+    id = std::int32_t(newIndex[std::size_t(id)]);
   }
 }
 

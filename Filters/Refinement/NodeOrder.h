@@ -2,6 +2,7 @@
 #ifndef tippNodeOrder_h
 #define tippNodeOrder_h
 
+#include "Arrays/Buffer.h"
 #include "Meshes/MeshOptions.h"
 #include "Points/ReadPoints.h"
 #include "vtkTIPPFiltersModule.h"
@@ -38,7 +39,7 @@ VTKTIPPFILTERS_EXPORT std::int64_t bandwidthOf(
 /// Reorders the nodes of a mesh: the rows of `points` and the ids in `triangles`, three per
 /// triangle. The order of triangles and of their corners is kept.
 VTKTIPPFILTERS_EXPORT void applyNodeOrder(
-  const std::vector<std::int64_t>& order, PointTable& points, std::vector<std::int64_t>& triangles);
+  const std::vector<std::int64_t>& order, PointTable& points, Buffer<std::int32_t>& triangles);
 
 /// Returns the inverse of an order: element i is the new index of node i.
 VTKTIPPFILTERS_EXPORT std::vector<std::int64_t> inverseOrder(

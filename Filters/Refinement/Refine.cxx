@@ -78,6 +78,7 @@ public:
     : Options(options)
     , Points(points)
     , Threads(threadCount(options.Threads))
+    , Mesh(options.Memory)
   {
     requireValid(options);
     startMesh(points, start, options, this->Mesh);
@@ -93,7 +94,13 @@ private:
   void setRules();
   double expectedTriangles() const;
   bool runLevel();
-  bool runRound(const std::vector<RefinementBlock>& blocks, std::vector<Element>& elements);
+  bool runRound(const std::vector<RefinementBlock>& blocks, Buffer<Element>& elements);
+  Buffer<Element> join(const std::vector<BlockRefiner::Result>& results) const;
+  static constexpr std::size_t GroupsInChunk = 256;
+  static std::size_t chunkCount(const std::vector<Index>& groups)
+  {
+    return (groups.size() + GroupsInChunk - 1) / GroupsInChunk;
+  }
   template <typename Item, typename Visit>
   void forGroups(
     const std::vector<Index>& groups, std::vector<Item>& chunks, const Visit& visit) const;
@@ -101,7 +108,7 @@ private:
   void forVertices(std::vector<Item>& chunks, const Visit& visit) const;
   template <typename Item, typename Visit>
   void forTriangles(std::vector<Item>& chunks, const Visit& visit) const;
-  std::vector<Element> collect() const;
+  Buffer<Element> collect() const;
   bool isFull() const
   {
     return this->Options.MostPoints > 0 && this->inserted() >= this->Options.MostPoints;
@@ -210,9 +217,9 @@ template <typename Item, typename Visit>
 void Refinement::forGroups(
   const std::vector<Index>& groups, std::vector<Item>& chunks, const Visit& visit) const
 {
-  constexpr std::int64_t chunk = 256;
+  constexpr auto chunk = std::int64_t(GroupsInChunk);
   const auto count = std::int64_t(groups.size());
-  chunks.resize(std::size_t((count + chunk - 1) / chunk));
+  chunks.resize(chunkCount(groups));
   forChunks(count, chunk, this->Threads, {},
     [&](std::int64_t begin, std::int64_t end, int)
     {
@@ -259,22 +266,34 @@ void Refinement::forTriangles(std::vector<Item>& chunks, const Visit& visit) con
 }
 
 /// The triangles that need refinement.
-std::vector<Element> Refinement::collect() const
+Buffer<Element> Refinement::collect() const
 {
-  std::vector<std::vector<Element>> chunks;
-  this->forTriangles(chunks,
-    [&](std::vector<Element>& list, Index t, const Triangle& triangle)
+  // Each chunk writes to a part of the array of its own, with room for all its triangles.
+  constexpr std::size_t room = GroupsInChunk * std::size_t(RefinementMesh::TrianglesInGroup);
+  struct alignas(64) Part // so that threads do not share a cache line
+  {
+    std::size_t Count = 0;
+  };
+  std::vector<Part> parts;
+  const std::size_t chunkCount = this->chunkCount(this->Mesh.TriangleGroups);
+  Buffer<Element> elements = bufferIn<Element>(this->Options.Memory, room * chunkCount);
+  this->forTriangles(parts,
+    [&](Part& part, Index t, const Triangle& triangle)
     {
       if (this->Rules.judge(this->Mesh, triangle).Why != RefinementRules::Need::None)
       {
-        list.push_back({ t, triangle.Version });
+        const auto chunk = std::size_t(&part - parts.data());
+        elements[chunk * room + part.Count++] = { t, triangle.Version };
       }
     });
-  std::vector<Element> elements;
-  for (const std::vector<Element>& list : chunks)
+  std::size_t end = 0;
+  for (std::size_t chunk = 0; chunk < chunkCount; ++chunk)
   {
-    append(list, elements);
+    const Element* const first = elements.data() + chunk * room;
+    std::copy(first, first + parts[chunk].Count, elements.data() + end);
+    end += parts[chunk].Count;
   }
+  elements.truncate(end);
   return elements;
 }
 
@@ -315,13 +334,13 @@ bool Refinement::run()
 /// Refines until no element is left.
 bool Refinement::runLevel()
 {
-  std::vector<Element> elements = this->collect();
+  Buffer<Element> elements = this->collect();
   // MostPoints is exact, and the same for any number of threads, in one block only.
   std::size_t most = this->Options.MostPoints > 0 ? 1 : elements.size() + 1;
   for (bool isFirst = true; !elements.empty() && !this->StoppedEarly; isFirst = false)
   {
     const std::vector<RefinementBlock> blocks =
-      makeBlocks(this->Mesh, elements, most, !isFirst, this->Threads);
+      makeBlocks(this->Mesh, elements, most, !isFirst, this->Threads, this->Options.Memory);
     ++this->Statistics.Rounds;
     this->Statistics.Blocks += std::int64_t(blocks.size());
     const std::size_t before = elements.size();
@@ -338,8 +357,7 @@ bool Refinement::runLevel()
 }
 
 /// Refines the blocks; `elements` becomes those that wait for the next round.
-bool Refinement::runRound(
-  const std::vector<RefinementBlock>& blocks, std::vector<Element>& elements)
+bool Refinement::runRound(const std::vector<RefinementBlock>& blocks, Buffer<Element>& elements)
 {
   std::vector<BlockRefiner::Result> results(blocks.size());
   std::atomic<bool> isStopped{ false };
@@ -368,14 +386,30 @@ bool Refinement::runRound(
     return false;
   }
   this->StoppedEarly = this->isFull();
-  elements.clear();
   for (const BlockRefiner::Result& result : results)
   {
-    append(result.Waiting, elements);
     append(result.TriangleGroups, this->Mesh.TriangleGroups);
     append(result.PointGroups, this->Mesh.PointGroups);
   }
+  elements = this->join(results);
   return true;
+}
+
+/// Returns the elements that wait for another block.
+Buffer<Element> Refinement::join(const std::vector<BlockRefiner::Result>& results) const
+{
+  std::size_t count = 0;
+  for (const BlockRefiner::Result& result : results)
+  {
+    count += result.Waiting.size();
+  }
+  Buffer<Element> elements = bufferIn<Element>(this->Options.Memory, count);
+  Element* to = elements.data();
+  for (const BlockRefiner::Result& result : results)
+  {
+    to = std::copy(result.Waiting.begin(), result.Waiting.end(), to);
+  }
+  return elements;
 }
 
 /// Sets the added points. Returns the id of each vertex.
@@ -398,8 +432,8 @@ Buffer<Index> Refinement::addPoints(RefinedMesh& result) const
   {
     added += std::exchange(chunk, added);
   }
-  Buffer<Index> ids(std::size_t(mesh.PointEnd));
-  result.AddedXY = Buffer<double>(2 * std::size_t(added));
+  Buffer<Index> ids = bufferIn<Index>(this->Options.Memory, std::size_t(mesh.PointEnd));
+  result.AddedXY = bufferIn<double>(this->Options.Memory, 2 * std::size_t(added));
   this->forVertices(chunks,
     [&](std::int64_t& next, std::size_t vertex)
     {
@@ -473,8 +507,9 @@ void Refinement::addTriangles(const Buffer<Index>& ids, RefinedMesh& result) con
   {
     count += std::exchange(chunk.Next, count);
   }
-  result.Triangles = Buffer<std::int32_t>(3 * std::size_t(count));
-  result.RegionOf.resize(this->Options.Regions.empty() ? 0 : std::size_t(count));
+  result.Triangles = bufferIn<std::int32_t>(this->Options.Memory, 3 * std::size_t(count));
+  result.RegionOf = bufferIn<std::int32_t>(
+    this->Options.Memory, this->Options.Regions.empty() ? 0 : std::size_t(count));
   this->forTriangles(chunks,
     [&](ResultChunk& chunk, Index, const Triangle& triangle)
     {

@@ -47,11 +47,11 @@ struct RefinedMesh
 {
   /// x and y of the added points. Their ids follow those of the points given.
   Buffer<double> AddedXY;
-  /// Three point ids each, counter-clockwise.
+  /// Three point ids each, counter-clockwise. Both arrays are in RefinementOptions::Memory.
   Buffer<std::int32_t> Triangles;
   /// By triangle: the index of its region among RefinementOptions::Regions, or -1. Empty if no
   /// regions are given.
-  std::vector<std::int32_t> RegionOf;
+  Buffer<std::int32_t> RegionOf;
   /// The subsegments, by constraint; those of edges of the convex hull have the constraint -1.
   std::vector<IdSegment> Segments;
   std::vector<TriangleOutside> Outside; ///< those not as asked, ascending

@@ -22,7 +22,7 @@ struct PlacedElement
 class BlockTree
 {
 public:
-  BlockTree(std::vector<PlacedElement>& elements, std::size_t size, bool avoidsBorders)
+  BlockTree(Buffer<PlacedElement>& elements, std::size_t size, bool avoidsBorders)
     : Elements(elements)
     , Size(size)
     , AvoidsBorders(avoidsBorders)
@@ -38,8 +38,8 @@ public:
       return;
     }
     const auto [axis, at] = this->AvoidsBorders ? this->emptiest(block) : this->median(block);
-    const auto first = this->Elements.begin();
-    const auto middle =
+    PlacedElement* const first = this->Elements.begin();
+    const PlacedElement* const middle =
       std::partition(first + std::ptrdiff_t(block.Begin), first + std::ptrdiff_t(block.End),
         [axis = axis, at = at](const PlacedElement& element) { return element.At[axis] < at; });
     const std::size_t cut = std::size_t(middle - first);
@@ -115,7 +115,7 @@ private:
     return { axis, box.Min[axis] + (double(best) + 0.5) / scale };
   }
 
-  std::vector<PlacedElement>& Elements;
+  Buffer<PlacedElement>& Elements;
   const std::size_t Size; ///< largest number of elements of a block
   const bool AvoidsBorders;
   std::vector<Point2> Sample;
@@ -124,8 +124,8 @@ private:
 } // namespace
 
 std::vector<RefinementBlock> makeBlocks(const RefinementMesh& mesh,
-  std::vector<RefinementQueue::Element>& elements, std::size_t most, bool avoidsBorders,
-  int threads)
+  Buffer<RefinementQueue::Element>& elements, std::size_t most, bool avoidsBorders, int threads,
+  PagedMemory* memory)
 {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   constexpr std::size_t smallest = 1024; // so that a block fits into a processor's own cache
@@ -135,7 +135,7 @@ std::vector<RefinementBlock> makeBlocks(const RefinementMesh& mesh,
   {
     return { { plane, 0, elements.size() } };
   }
-  std::vector<PlacedElement> placed(elements.size());
+  Buffer<PlacedElement> placed = bufferIn<PlacedElement>(memory, elements.size());
   forIndices(
     std::int64_t(placed.size()),
     [&](std::int64_t i)

@@ -2,6 +2,8 @@
 #ifndef tippRefinementBlocks_h
 #define tippRefinementBlocks_h
 
+#include "Arrays/Buffer.h"
+#include "Files/PagedMemory.h"
 #include "Predicates/Geometry.h"
 #include "Refinement/RefinementMesh.h"
 #include "Refinement/RefinementQueue.h"
@@ -26,9 +28,11 @@ struct RefinementBlock
 ///
 /// If the elements are what other blocks have left over, most lie along their borders. Therefore
 /// `avoidsBorders` cuts where there is most room between elements.
+///
+/// `memory`: where a copy of the elements is sorted; null: the process's memory.
 std::vector<RefinementBlock> makeBlocks(const RefinementMesh& mesh,
-  std::vector<RefinementQueue::Element>& elements, std::size_t most, bool avoidsBorders,
-  int threads);
+  Buffer<RefinementQueue::Element>& elements, std::size_t most, bool avoidsBorders, int threads,
+  PagedMemory* memory);
 
 } // namespace tipp
 

@@ -3,6 +3,7 @@
 #define tippRefinementMesh_h
 
 #include "Arrays/ReservedArray.h"
+#include "Files/PagedMemory.h"
 #include "Predicates/Geometry.h"
 #include "Triangulation/PopulatePages.h"
 
@@ -90,10 +91,11 @@ public:
 
   static constexpr std::size_t MostTriangles = std::size_t(1) << 28; ///< links have 31 bits
 
-  RefinementMesh()
-    : Triangles(MostTriangles)
-    , Points(MostTriangles)
-    , Origins(MostTriangles)
+  /// `memory`: where the arrays are, and outlives the mesh; null: the process's own.
+  explicit RefinementMesh(PagedMemory* memory)
+    : Triangles(arrayIn<Triangle>(memory))
+    , Points(arrayIn<Point2>(memory))
+    , Origins(arrayIn<Index>(memory))
   {
   }
 
@@ -150,6 +152,12 @@ public:
   ///@}
 
 private:
+  template <typename T>
+  static ReservedArray<T> arrayIn(PagedMemory* memory)
+  {
+    return memory ? memory->reservedArray<T>(MostTriangles) : ReservedArray<T>(MostTriangles);
+  }
+
   static std::uint64_t key(Index a, Index b)
   {
     const auto [low, high] = std::minmax(a, b);
@@ -174,10 +182,12 @@ public:
       {
         throw std::length_error("The mesh would have too many triangles for the memory.");
       }
+      array.grow(std::size_t(first + group));
       constexpr std::int64_t committed = 8192; // at once
       if (first % committed == 0)
       {
         const std::int64_t last = std::min(first + committed, std::int64_t(array.capacity()));
+        array.grow(std::size_t(last));
         populatePages(array.data() + first, std::size_t(last - first) * sizeof(T));
       }
       this->Next = std::int32_t(first);

@@ -17,6 +17,8 @@
 namespace tipp
 {
 
+class PagedMemory;
+
 /// A part of the domain, enclosed by segments: all triangles that can be reached from a point
 /// without crossing one.
 struct RefinementRegion
@@ -49,6 +51,8 @@ struct RefinementOptions
   bool IsEnclosed = false;
   std::int64_t MostPoints = 0; ///< at most so many points are added; 0: no limit
   int Threads = 0;             ///< 0: as usual
+  /// Where the mesh and its result are; it must outlive the refinement. Null: the process's memory.
+  PagedMemory* Memory = nullptr;
   Report Progress;
 };
 

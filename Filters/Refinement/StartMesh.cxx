@@ -205,6 +205,7 @@ public:
     {
       throw std::length_error("The mesh would have too many triangles for the memory.");
     }
+    mesh.Triangles.grow(std::size_t(count) + RefinementMesh::TrianglesInGroup);
     mesh.TriangleEnd = addGroups(count, RefinementMesh::TrianglesInGroup, mesh.TriangleGroups);
   }
 
@@ -317,6 +318,8 @@ void startMesh(PointsView points, const ConstrainedTriangulation& triangulation,
   {
     throw std::length_error("The mesh would have too many points for the memory.");
   }
+  mesh.Points.grow(points.size() + RefinementMesh::PointsInGroup);
+  mesh.Origins.grow(points.size() + RefinementMesh::PointsInGroup);
   for (const IdSegment& segment : triangulation.Constraints.Segments)
   {
     const auto a = Index(segment.A);

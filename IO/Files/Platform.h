@@ -3,7 +3,9 @@
 #define tippPlatform_h
 
 #include <cerrno>
+#include <cstdint>
 #include <cstdio>
+#include <fstream>
 #include <string>
 
 #include <fcntl.h>
@@ -66,6 +68,46 @@ inline void startWriteback([[maybe_unused]] int descriptor)
 #ifdef __linux__
   static_cast<void>(sync_file_range(descriptor, 0, 0, SYNC_FILE_RANGE_WRITE));
 #endif
+}
+
+/// Extends a file by a range, whose space on the disk is then reserved. Returns 0 or the reason.
+inline int allocateRange(int descriptor, off_t begin, off_t bytes)
+{
+#ifdef __APPLE__
+  fstore_t store = {};
+  store.fst_flags = F_ALLOCATEALL;
+  store.fst_posmode = F_PEOFPOSMODE;
+  store.fst_length = bytes;
+  return fcntl(descriptor, F_PREALLOCATE, &store) == 0 && ftruncate(descriptor, begin + bytes) == 0
+    ? 0
+    : errno;
+#else
+  return posix_fallocate(descriptor, begin, bytes);
+#endif
+}
+
+/// The memory of this process that is resident, in bytes.
+struct ResidentMemory
+{
+  std::uint64_t Bytes = 0;
+  std::uint64_t Mapped = 0; ///< the part of it that is pages of files
+};
+
+/// Returns what is resident; zeros if the system does not say.
+inline ResidentMemory residentMemory()
+{
+  ResidentMemory result;
+#ifdef __linux__
+  std::uint64_t all = 0;
+  std::uint64_t resident = 0;
+  std::uint64_t mapped = 0;
+  if (std::ifstream("/proc/self/statm") >> all >> resident >> mapped)
+  {
+    const auto page = std::uint64_t(sysconf(_SC_PAGESIZE));
+    result = { resident * page, mapped * page };
+  }
+#endif
+  return result;
 }
 
 /// Frees the space of a range of a file, which then reads as zeros, or leaves it as it is if the

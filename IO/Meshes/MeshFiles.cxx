@@ -21,9 +21,9 @@
 namespace tipp
 {
 
-const PointTable::Column* findZ(const PointTable& points)
+const PointTable::Column* findZ(const NodesView& nodes)
 {
-  for (const PointTable::Column& column : points.Columns)
+  for (const PointTable::Column& column : nodes.columns())
   {
     if (column.Name == "z" || column.Name == "Z")
     {
@@ -133,23 +133,23 @@ struct Cells
 template <typename Id>
 Cells(const Id*, std::size_t, std::size_t) -> Cells<Id>;
 
-XmlArray pointsArray(const PointTable& points)
+XmlArray pointsArray(const NodesView& nodes)
 {
-  const PointTable::Column* const z = findZ(points);
-  const auto coordinate = [&points, z](std::size_t i) {
-    return i % 3 < 2 ? points.XY[i / 3 * 2 + i % 3] : z ? z->Values[i / 3] : 0;
+  const PointTable::Column* const z = findZ(nodes);
+  const auto coordinate = [&nodes, z](std::size_t i) {
+    return i % 3 < 2 ? nodes[i / 3][i % 3] : z ? z->Values[i / 3] : 0;
   };
-  return computedXmlArray<double>("Points", 3 * points.size(), coordinate, 3);
+  return computedXmlArray<double>("Points", 3 * nodes.size(), coordinate, 3);
 }
 
-XmlSection pointData(const PointTable& points, const MeshOptions& options)
+XmlSection pointData(const NodesView& nodes, const MeshOptions& options)
 {
   XmlSection section{ "PointData", {}, "" };
-  for (const PointTable::Column& column : points.Columns)
+  for (const PointTable::Column& column : nodes.columns())
   {
-    if (&column != findZ(points))
+    if (&column != findZ(nodes))
     {
-      section.Arrays.push_back(xmlArray(column.Name, column.Values.data(), points.size()));
+      section.Arrays.push_back(xmlArray(column.Name, column.Values.data(), nodes.size()));
     }
   }
   const std::vector<std::int64_t>& ids = options.Representatives;
@@ -197,20 +197,20 @@ XmlSection cellSection(const std::string& name, const Cells<Id>& cells)
 }
 
 template <typename Id>
-bool writePolyData(const std::string& path, const PointTable& points, const Cells<Id>& cells,
+bool writePolyData(const std::string& path, const NodesView& nodes, const Cells<Id>& cells,
   const std::vector<std::int64_t>& neighbors, const MeshOptions& options)
 {
   const XmlPiece piece{ "PolyData",
-    { { "NumberOfPoints", points.size() }, { "NumberOfVerts", 0 }, { "NumberOfLines", 0 },
+    { { "NumberOfPoints", nodes.size() }, { "NumberOfVerts", 0 }, { "NumberOfLines", 0 },
       { "NumberOfStrips", 0 }, { "NumberOfPolys", cells.Count } },
-    { pointData(points, options), cellData(neighbors, cells.Corners, options.Regions),
-      { "Points", { pointsArray(points) }, "" }, cellSection("Polys", cells) } };
+    { pointData(nodes, options), cellData(neighbors, cells.Corners, options.Regions),
+      { "Points", { pointsArray(nodes) }, "" }, cellSection("Polys", cells) } };
   return writeXmlPiece(path, options.Before, piece, options.Aborted);
 }
 
 /// Writes a .vtu file.
 template <typename Id>
-bool writeGrid(const std::string& path, const PointTable& points, const Cells<Id>& cells,
+bool writeGrid(const std::string& path, const NodesView& nodes, const Cells<Id>& cells,
   const std::vector<std::int64_t>& neighbors, const MeshOptions& options)
 {
   constexpr int vtkTriangle = 5;
@@ -220,9 +220,9 @@ bool writeGrid(const std::string& path, const PointTable& points, const Cells<Id
   section.Arrays.push_back(
     computedXmlArray<std::uint8_t>("types", cells.Count, [type](std::size_t) { return type; }));
   const XmlPiece piece{ "UnstructuredGrid",
-    { { "NumberOfPoints", points.size() }, { "NumberOfCells", cells.Count } },
-    { pointData(points, options), cellData(neighbors, cells.Corners, options.Regions),
-      { "Points", { pointsArray(points) }, "" }, section } };
+    { { "NumberOfPoints", nodes.size() }, { "NumberOfCells", cells.Count } },
+    { pointData(nodes, options), cellData(neighbors, cells.Corners, options.Regions),
+      { "Points", { pointsArray(nodes) }, "" }, section } };
   return writeXmlPiece(path, options.Before, piece, options.Aborted);
 }
 
@@ -233,7 +233,7 @@ namespace
 
 /// The function that writes the files of this opener; null if they are no text.
 bool (*textWriterOf(Opener opener))(
-  const std::string&, const PointTable&, TrianglesView, const MeshOptions&)
+  const std::string&, const NodesView&, TrianglesView, const MeshOptions&)
 {
   switch (opener)
   {
@@ -256,18 +256,16 @@ namespace
 {
 
 UgridContent ugridOf(
-  const PointTable& points, const TrianglesView& triangles, const MeshOptions& options)
+  const NodesView& nodes, const TrianglesView& triangles, const MeshOptions& options)
 {
   UgridContent content;
-  content.Nodes = std::int64_t(points.size());
+  content.Nodes = std::int64_t(nodes.size());
   content.Triangles = std::int64_t(triangles.size());
   content.Crs = options.Crs;
-  content.Node = [&points](std::int64_t node) {
-    return Point2{ points.XY[2 * std::size_t(node)], points.XY[2 * std::size_t(node) + 1] };
-  };
+  content.Node = [&nodes](std::int64_t node) { return nodes[std::size_t(node)]; };
   content.Corner = [&triangles](std::int64_t triangle, int corner)
   { return triangles.id(std::size_t(triangle), corner); };
-  for (const PointTable::Column& column : points.Columns)
+  for (const PointTable::Column& column : nodes.columns())
   {
     content.Arrays.push_back({ column.Name, "", "", Scalar::Float64, false, false,
       [&column](std::size_t) { return column.Values.data(); } });
@@ -289,7 +287,7 @@ UgridContent ugridOf(
 
 } // namespace
 
-bool writeMesh(const std::string& path, const PointTable& points, TrianglesView triangles,
+bool writeMesh(const std::string& path, const NodesView& nodes, TrianglesView triangles,
   const MeshOptions& options)
 {
   const Opener opener = openerOf(path, Use::WritesTriangles);
@@ -306,11 +304,11 @@ bool writeMesh(const std::string& path, const PointTable& points, TrianglesView 
   }
   if (opener == Opener::Netcdf)
   {
-    return writeUgrid(path, ugridOf(points, triangles, options), options.Before, options.Aborted);
+    return writeUgrid(path, ugridOf(nodes, triangles, options), options.Before, options.Aborted);
   }
   if (const auto writer = textWriterOf(opener))
   {
-    return writer(path, points, triangles, options);
+    return writer(path, nodes, triangles, options);
   }
   return triangles.withIds(
     [&](const auto* ids)
@@ -321,8 +319,8 @@ bool writeMesh(const std::string& path, const PointTable& points, TrianglesView 
         findNeighbors(ids, triangles.size(), neighbors.data());
       }
       const Cells cells{ ids, triangles.size(), 3 };
-      return extensionOf(path) == ".vtp" ? writePolyData(path, points, cells, neighbors, options)
-                                         : writeGrid(path, points, cells, neighbors, options);
+      return extensionOf(path) == ".vtp" ? writePolyData(path, nodes, cells, neighbors, options)
+                                         : writeGrid(path, nodes, cells, neighbors, options);
     });
 }
 

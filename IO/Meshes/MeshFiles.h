@@ -26,7 +26,7 @@ struct Piece;
 constexpr const char* neighborIdsName = "NeighborIds";
 
 /// The column that is the third coordinate in files: named z or Z; null if there is none.
-const PointTable::Column* findZ(const PointTable& points);
+const PointTable::Column* findZ(const NodesView& nodes);
 
 /// Creates a data set over the caller's memory, which must outlive it and must not be changed
 /// through it; only coordinates and cell offsets are copies. A column named z is the third
@@ -60,7 +60,7 @@ VTKTIPPIO_EXPORT bool holdsTriangles(const std::string& path);
 /// the other columns as point data), as NetCDF by UGRID (.nc: all columns), or as text for models
 /// (.14, .grd, .gr3, .2dm, .msh, .node or .ele: see Meshes/TextMeshes.h). The file appears only
 /// when it is complete. Returns false if Aborted returned true; throws IOError.
-VTKTIPPIO_EXPORT bool writeMesh(const std::string& path, const PointTable& points,
+VTKTIPPIO_EXPORT bool writeMesh(const std::string& path, const NodesView& nodes,
   TrianglesView triangles, const MeshOptions& options = {});
 
 /// The files that belong together: for a file of Triangle (.node, .ele or .poly) the .node and .ele

@@ -4,6 +4,7 @@
 
 #include "Adcirc/AdcircBoundaries.h"
 #include "Files/PendingOutput.h"
+#include "Points/ReadPoints.h"
 #include "Predicates/Geometry.h"
 
 #include <array>
@@ -53,6 +54,52 @@ public:
 private:
   const std::int32_t* Ids32 = nullptr;
   const std::int64_t* Ids64 = nullptr;
+  std::size_t Count = 0;
+};
+
+/// A view of a mesh's nodes in the caller's memory: the points of a table, and further ones behind
+/// them if the table has no columns.
+class NodesView
+{
+public:
+  NodesView() = default;
+  NodesView(const PointTable& table) // NOLINT(google-explicit-constructor): a table is such a view
+    : Table(&table)
+    , InTable(table.size())
+    , Count(table.size())
+  {
+  }
+  /// `xy`: x and y of `count` points.
+  NodesView(const PointTable& table, const double* xy, std::size_t count)
+    : NodesView(table)
+  {
+    this->More = xy;
+    this->Count += count;
+  }
+
+  std::size_t size() const { return this->Count; }
+  Point2 operator[](std::size_t node) const
+  {
+    const bool isInTable = node < this->InTable;
+    const double* const at =
+      isInTable ? &this->Table->XY[2 * node] : this->More + 2 * (node - this->InTable);
+    return { at[0], at[1] };
+  }
+  /// The columns of the table.
+  const std::vector<PointTable::Column>& columns() const
+  {
+    static const std::vector<PointTable::Column> none;
+    return this->Table ? this->Table->Columns : none;
+  }
+  std::vector<std::string> names() const
+  {
+    return this->Table ? this->Table->names() : std::vector<std::string>();
+  }
+
+private:
+  const PointTable* Table = nullptr;
+  const double* More = nullptr;
+  std::size_t InTable = 0;
   std::size_t Count = 0;
 };
 

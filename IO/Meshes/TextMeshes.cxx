@@ -18,10 +18,10 @@ void appendNumber(std::string& line, double value)
   line.append(text.data(), writeShortest(text, value));
 }
 
-void appendNode(std::string& line, const PointTable& points, std::size_t node, double third)
+void appendNode(std::string& line, const NodesView& nodes, std::size_t node, double third)
 {
-  appendNumber(line, points.XY[2 * node]);
-  appendNumber(line, points.XY[2 * node + 1]);
+  appendNumber(line, nodes[node].x);
+  appendNumber(line, nodes[node].y);
   appendNumber(line, third);
 }
 
@@ -36,56 +36,51 @@ bool finishMesh(OutputStream& out, PendingFile& pending, const MeshOptions& opti
   return true;
 }
 
-void requireFinite(const std::string& path, const PointTable& points)
+void requireFinite(const std::string& path, const NodesView& nodes)
 {
-  const auto found = std::find_if(
-    points.XY.begin(), points.XY.end(), [](double value) { return !std::isfinite(value); });
-  if (found != points.XY.end())
+  for (std::size_t i = 0; i < nodes.size(); ++i)
   {
-    throw IOError(path,
-      "cannot hold point " + std::to_string((found - points.XY.begin()) / 2) +
-        ", whose coordinates are not finite; remove it, or write .vtu.");
+    if (!isFinite(nodes[i]))
+    {
+      throw IOError(path,
+        "cannot hold point " + std::to_string(i) +
+          ", whose coordinates are not finite; remove it, or write .vtu.");
+    }
   }
 }
 
 namespace
 {
 
-/// The first of two values that the table has, the second one negated; else zeros. `first` and
+/// The first of two columns that the nodes have, the second one negated; else zeros. `first` and
 /// `second` are indices of columns, or the number of columns.
-std::vector<double> valuesOrNegated(const PointTable& points, std::size_t first, std::size_t second)
+NodeValues valuesOrNegated(const NodesView& nodes, std::size_t first, std::size_t second)
 {
-  if (first < points.Columns.size())
+  const std::vector<PointTable::Column>& columns = nodes.columns();
+  if (first < columns.size())
   {
-    return points.Columns[first].Values;
+    return { &columns[first], false };
   }
-  std::vector<double> values(points.size(), 0);
-  if (second < points.Columns.size())
-  {
-    const std::vector<double>& from = points.Columns[second].Values;
-    std::transform(
-      from.begin(), from.end(), values.begin(), [](double value) { return 0 - value; });
-  }
-  return values;
+  return second < columns.size() ? NodeValues{ &columns[second], true } : NodeValues();
 }
 
-std::size_t findDepth(const PointTable& points)
+std::size_t findDepth(const NodesView& nodes)
 {
-  const auto found = std::find_if(points.Columns.begin(), points.Columns.end(),
+  const auto found = std::find_if(nodes.columns().begin(), nodes.columns().end(),
     [](const PointTable::Column& column) { return lowerCase(column.Name) == "depth"; });
-  return std::size_t(found - points.Columns.begin());
+  return std::size_t(found - nodes.columns().begin());
 }
 
 } // namespace
 
-std::vector<double> depthsOf(const PointTable& points)
+NodeValues depthsOf(const NodesView& nodes)
 {
-  return valuesOrNegated(points, findDepth(points), findElevation(points.names()));
+  return valuesOrNegated(nodes, findDepth(nodes), findElevation(nodes.names()));
 }
 
-std::vector<double> elevationsOf(const PointTable& points)
+NodeValues elevationsOf(const NodesView& nodes)
 {
-  return valuesOrNegated(points, findElevation(points.names()), findDepth(points));
+  return valuesOrNegated(nodes, findElevation(nodes.names()), findDepth(nodes));
 }
 
 } // namespace tipp

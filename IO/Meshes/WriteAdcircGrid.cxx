@@ -46,26 +46,26 @@ std::vector<std::int64_t> nodeNumbers(
 
 } // namespace
 
-bool writeAdcircGrid(const std::string& path, const PointTable& points, TrianglesView triangles,
+bool writeAdcircGrid(const std::string& path, const NodesView& nodes, TrianglesView triangles,
   const MeshOptions& options)
 {
-  requireFinite(path, points);
+  requireFinite(path, nodes);
   AdcircGrid frame; // its title, node numbers and boundaries are written
   frame.Title = "Triangles made by tipp";
   if (!options.AdcircLike.empty())
   {
     frame = readAdcircNodes(options.AdcircLike);
   }
-  const std::vector<std::int64_t> numbers = nodeNumbers(options.AdcircLike, frame, points.size());
-  const std::vector<double> depths = depthsOf(points);
+  const std::vector<std::int64_t> numbers = nodeNumbers(options.AdcircLike, frame, nodes.size());
+  const NodeValues depths = depthsOf(nodes);
   PendingFile pending(path, options.Before);
   OutputStream out(pending.file());
-  out << frame.Title << "\n" << triangles.size() << " " << points.size() << "\n";
+  out << frame.Title << "\n" << triangles.size() << " " << nodes.size() << "\n";
   std::string line;
-  for (std::size_t i = 0; i < points.size(); ++i)
+  for (std::size_t i = 0; i < nodes.size(); ++i)
   {
     line = std::to_string(numbers[i]);
-    appendNode(line, points, i, depths[i]);
+    appendNode(line, nodes, i, depths[i]);
     out << line << "\n";
   }
   for (std::size_t t = 0; t < triangles.size(); ++t)

@@ -61,21 +61,21 @@ void writeGmshElements(OutputStream& out, TrianglesView triangles, const MeshOpt
 
 } // namespace
 
-bool writeGmshMesh(const std::string& path, const PointTable& points, TrianglesView triangles,
+bool writeGmshMesh(const std::string& path, const NodesView& nodes, TrianglesView triangles,
   const MeshOptions& options)
 {
-  requireFinite(path, points);
-  const std::vector<double> elevations = elevationsOf(points);
+  requireFinite(path, nodes);
+  const NodeValues elevations = elevationsOf(nodes);
   PendingFile pending(path, options.Before);
   OutputStream out(pending.file());
   out << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
   writeGroups(out, path, options);
-  out << "$Nodes\n" << points.size() << "\n";
+  out << "$Nodes\n" << nodes.size() << "\n";
   std::string line;
-  for (std::size_t i = 0; i < points.size(); ++i)
+  for (std::size_t i = 0; i < nodes.size(); ++i)
   {
     line = std::to_string(i + 1);
-    appendNode(line, points, i, elevations[i]);
+    appendNode(line, nodes, i, elevations[i]);
     out << line << "\n";
   }
   out << "$EndNodes\n";

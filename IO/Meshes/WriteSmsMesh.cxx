@@ -10,11 +10,11 @@
 namespace tipp
 {
 
-bool writeSmsMesh(const std::string& path, const PointTable& points, TrianglesView triangles,
+bool writeSmsMesh(const std::string& path, const NodesView& nodes, TrianglesView triangles,
   const MeshOptions& options)
 {
-  requireFinite(path, points);
-  const std::vector<double> elevations = elevationsOf(points);
+  requireFinite(path, nodes);
+  const NodeValues elevations = elevationsOf(nodes);
   PendingFile pending(path, options.Before);
   OutputStream out(pending.file());
   out << "MESH2D\nMESHNAME \"Triangles made by tipp\"\nNUM_MATERIALS_PER_ELEM 1\n";
@@ -29,10 +29,10 @@ bool writeSmsMesh(const std::string& path, const PointTable& points, TrianglesVi
     line += ' ' + std::to_string(options.Regions.empty() ? 1 : options.Regions[t]);
     out << line << "\n";
   }
-  for (std::size_t i = 0; i < points.size(); ++i)
+  for (std::size_t i = 0; i < nodes.size(); ++i)
   {
     line = "ND " + std::to_string(i + 1);
-    appendNode(line, points, i, elevations[i]);
+    appendNode(line, nodes, i, elevations[i]);
     out << line << "\n";
   }
   return finishMesh(out, pending, options);

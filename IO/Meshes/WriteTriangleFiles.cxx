@@ -18,26 +18,26 @@ namespace
 
 /// Writes the .node file: points with the columns as attributes, the elevation first, because
 /// attributes have no names.
-void writeVertices(const OutputFile& file, const PointTable& points)
+void writeVertices(const OutputFile& file, const NodesView& nodes)
 {
   std::vector<const PointTable::Column*> attributes;
-  for (const PointTable::Column& column : points.Columns)
+  for (const PointTable::Column& column : nodes.columns())
   {
     attributes.push_back(&column);
   }
-  const std::size_t elevation = findElevation(points.names());
+  const std::size_t elevation = findElevation(nodes.names());
   for (std::size_t i = elevation; i > 0 && elevation < attributes.size(); --i)
   {
     std::swap(attributes[i], attributes[i - 1]);
   }
   OutputStream out(file);
-  out << points.size() << " 2 " << attributes.size() << " 0\n";
+  out << nodes.size() << " 2 " << attributes.size() << " 0\n";
   std::string line;
-  for (std::size_t i = 0; i < points.size(); ++i)
+  for (std::size_t i = 0; i < nodes.size(); ++i)
   {
     line = std::to_string(i + 1);
-    appendNumber(line, points.XY[2 * i]);
-    appendNumber(line, points.XY[2 * i + 1]);
+    appendNumber(line, nodes[i].x);
+    appendNumber(line, nodes[i].y);
     for (const PointTable::Column* const column : attributes)
     {
       appendNumber(line, column->Values[i]);
@@ -92,16 +92,16 @@ void writeSegments(const OutputFile& file, const std::vector<std::array<std::int
 
 } // namespace
 
-bool writeTriangleFiles(const std::string& path, const PointTable& points, TrianglesView triangles,
+bool writeTriangleFiles(const std::string& path, const NodesView& nodes, TrianglesView triangles,
   const MeshOptions& options)
 {
-  requireFinite(path, points);
+  requireFinite(path, nodes);
   const auto beforeOf = [&](const std::string& file)
   { return file == path ? options.Before : std::nullopt; };
   const std::string nodesPath = triangleFileBeside(path, ".node");
   const std::string elementsPath = triangleFileBeside(path, ".ele");
-  PendingFile nodes(nodesPath, beforeOf(nodesPath));
-  writeVertices(nodes.file(), points);
+  PendingFile vertices(nodesPath, beforeOf(nodesPath));
+  writeVertices(vertices.file(), nodes);
   PendingFile elements(elementsPath, beforeOf(elementsPath));
   writeElementRows(elements.file(), triangles, options.Regions);
   std::optional<PendingFile> segments;
@@ -114,7 +114,7 @@ bool writeTriangleFiles(const std::string& path, const PointTable& points, Trian
   {
     return false;
   }
-  nodes.commit();
+  vertices.commit();
   if (segments)
   {
     segments->commit();

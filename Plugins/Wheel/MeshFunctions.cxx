@@ -66,7 +66,7 @@ void addMesh(PointsMesh& mesh, std::size_t regions, nb::dict& result)
   result["segments"] = idRowsOf(refined.Segments);
   if (regions > 0)
   {
-    result["regions"] = copyOf(refined.RegionOf);
+    result["regions"] = arrayOf(std::move(refined.RegionOf));
   }
   result["triangles"] = arrayOf(std::move(refined.Triangles), 3);
 }

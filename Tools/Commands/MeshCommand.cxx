@@ -9,6 +9,7 @@
 #include "Files/Formats.h"
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
+#include "Files/PagedMemory.h"
 #include "Files/RequireApart.h"
 #include "Files/TextFile.h"
 #include "InMemory/TriangulateTable.h"
@@ -70,6 +71,8 @@ struct MeshArguments
   std::string OpenPolygon; ///< path; empty: not given
   std::optional<double> OpenDepth;
   bool KeepOrder = false;
+  std::string Memory;  ///< the limit; empty: the mesh is in memory
+  std::string Scratch; ///< a folder; empty: that of the output
   int Threads = 0;
 
   Opener OutputIs = Opener::None;
@@ -93,8 +96,10 @@ struct MeshArguments
 /// The mesh, and what its statistics are made from.
 struct MadeMesh
 {
-  PointTable Points; ///< all nodes
-  std::vector<std::int64_t> Triangles;
+  PointTable Points;       ///< all nodes, or those before the added ones
+  Buffer<double> NewXY;    ///< with --memory: of the crossings and the added points
+  std::size_t InTable = 0; ///< the number of crossings, which Points has, too
+  Buffer<std::int32_t> Triangles;
   std::vector<std::int64_t> Regions;
   std::vector<std::array<std::int64_t, 2>> Segments;
   RefinedMesh Refined; ///< its triangles and points have been moved from
@@ -103,6 +108,12 @@ struct MadeMesh
   std::optional<NodeDepths> Depths;
   ModelBoundaries Boundaries;
   std::int64_t Bandwidth = 0;
+
+  NodesView nodes() const
+  {
+    return { this->Points, this->NewXY.data() + 2 * this->InTable,
+      this->NewXY.size() / 2 - this->InTable };
+  }
 };
 
 /// Returns the parts of the constraints between the points, which sizes are measured from.
@@ -165,10 +176,11 @@ RefinementOptions refinementOptions(const MeshArguments& arguments)
   return options;
 }
 
-/// Appends the points that the mesh has beyond those of the table, with interpolated columns.
-void appendPoints(const PointsMesh& mesh, PointTable& points)
+/// Appends the first `count` of the points that the mesh has beyond those of the table, with
+/// interpolated columns.
+void appendPoints(const PointsMesh& mesh, std::size_t count, PointTable& points)
 {
-  points.XY.insert(points.XY.end(), mesh.NewXY.begin(), mesh.NewXY.end());
+  points.XY.insert(points.XY.end(), mesh.NewXY.begin(), mesh.NewXY.begin() + 2 * count);
   for (PointTable::Column& column : points.Columns)
   {
     for (const PointBlend& blend : mesh.Blends)
@@ -179,60 +191,68 @@ void appendPoints(const PointsMesh& mesh, PointTable& points)
   }
 }
 
-/// Keeps these rows of a table, which ascend.
-void keepRows(const std::vector<std::size_t>& rows, PointTable& points)
+/// Of the first rows of a table, keeps those whose number is not negative, and all others.
+void keepRows(const std::vector<std::int64_t>& numbers, PointTable& points)
 {
-  for (std::size_t i = 0; i < rows.size(); ++i)
+  std::size_t end = 0;
+  for (std::size_t i = 0; i < points.size(); ++i)
   {
-    points.XY[2 * i] = points.XY[2 * rows[i]];
-    points.XY[2 * i + 1] = points.XY[2 * rows[i] + 1];
-    for (PointTable::Column& column : points.Columns)
+    if (i >= numbers.size() || numbers[i] >= 0)
     {
-      column.Values[i] = column.Values[rows[i]];
+      points.XY[2 * end] = points.XY[2 * i];
+      points.XY[2 * end + 1] = points.XY[2 * i + 1];
+      for (PointTable::Column& column : points.Columns)
+      {
+        column.Values[end] = column.Values[i];
+      }
+      ++end;
     }
   }
-  points.XY.resize(2 * rows.size());
+  points.XY.resize(2 * end);
   for (PointTable::Column& column : points.Columns)
   {
-    column.Values.resize(rows.size());
+    column.Values.resize(end);
   }
 }
 
-/// Renumbers the ends of segments: point i becomes numbers[i].
-void renumberSegments(const std::vector<std::int64_t>& numbers, MadeMesh& made)
+/// Renumbers the ends of segments: point i becomes numberOf(i).
+template <typename NumberOf>
+void renumberSegments(const NumberOf& numberOf, MadeMesh& made)
 {
   for (auto& segment : made.Segments)
   {
-    segment = { numbers[std::size_t(segment[0])], numbers[std::size_t(segment[1])] };
+    segment = { numberOf(segment[0]), numberOf(segment[1]) };
   }
 }
 
-/// Removes points that are in no triangle, which models do not accept. Returns how many.
-std::int64_t removeUnused(MadeMesh& made)
+/// Removes points that are in no triangle, which models do not accept. Only the first `count` can
+/// be such: refinement uses all points that it adds. Returns how many.
+std::int64_t removeUnused(std::size_t count, MadeMesh& made)
 {
-  std::vector<std::int64_t> numbers(made.Points.size(), -1);
-  for (const std::int64_t id : made.Triangles)
+  std::vector<std::int64_t> numbers(count, -1);
+  for (const std::int32_t id : made.Triangles)
   {
-    numbers[std::size_t(id)] = 0;
-  }
-  std::vector<std::size_t> used;
-  for (std::size_t i = 0; i < numbers.size(); ++i)
-  {
-    if (numbers[i] == 0)
+    if (std::size_t(id) < count)
     {
-      numbers[i] = std::int64_t(used.size());
-      used.push_back(i);
+      numbers[std::size_t(id)] = 0;
     }
   }
-  const auto left = std::int64_t(numbers.size() - used.size());
+  std::int64_t used = 0;
+  for (std::int64_t& number : numbers)
+  {
+    number = number == 0 ? used++ : -1;
+  }
+  const std::int64_t left = std::int64_t(count) - used;
   if (left > 0)
   {
-    keepRows(used, made.Points);
-    for (std::int64_t& id : made.Triangles)
+    const auto numberOf = [&](std::int64_t id)
+    { return std::size_t(id) < count ? numbers[std::size_t(id)] : id - left; };
+    keepRows(numbers, made.Points);
+    for (std::int32_t& id : made.Triangles)
     {
-      id = numbers[std::size_t(id)];
+      id = std::int32_t(numberOf(id));
     }
-    renumberSegments(numbers, made);
+    renumberSegments(numberOf, made);
   }
   return left;
 }
@@ -251,7 +271,8 @@ void orderNodes(MadeMesh& made)
   {
     made.Bandwidth = after;
     applyNodeOrder(order, made.Points, made.Triangles);
-    renumberSegments(inverseOrder(order), made);
+    const std::vector<std::int64_t> numbers = inverseOrder(order);
+    renumberSegments([&](std::int64_t id) { return numbers[std::size_t(id)]; }, made);
   }
 }
 
@@ -469,7 +490,7 @@ nlohmann::ordered_json listOutside(const RefinedMesh& mesh, double angle, bool i
 void printFigures(const MeshArguments& arguments, const MadeMesh& made,
   const nlohmann::ordered_json& json, double seconds)
 {
-  fmt::print("{} points, {} in {:.3f} s, {:.1f} MB\n", made.Points.size(),
+  fmt::print("{} points, {} in {:.3f} s, {:.1f} MB\n", made.nodes().size(),
     counted(std::int64_t(made.Triangles.size() / 3), "triangle", "triangles"), seconds,
     double(peakMemoryBytes()) / 1e6);
   const auto thin = std::int64_t(json["below_bound"].size());
@@ -495,7 +516,7 @@ void report(const MeshArguments& arguments, const MadeMesh& made, double seconds
   const RefinementStatistics& figures = made.Refined.Statistics;
   const auto triangles = std::int64_t(made.Triangles.size() / 3);
   nlohmann::ordered_json json = { { "input", arguments.Constraints.name() },
-    { "output", arguments.Output }, { "points", made.Points.size() }, { "triangles", triangles },
+    { "output", arguments.Output }, { "points", made.nodes().size() }, { "triangles", triangles },
     { "points_given", made.GivenPoints }, { "points_left_out", made.LeftOut },
     { "points_added", figures.Inserted }, { "segment_splits", figures.Splits },
     { "levels", figures.Levels }, { "rounds", figures.Rounds }, { "blocks", figures.Blocks },
@@ -533,12 +554,52 @@ SizeFunction makeSizes(const MeshArguments& arguments, const PointTable& points,
     sizes, lines, domainOf(arguments, points, lines), arguments.Threads, progress);
 }
 
-/// Makes the mesh, without depths and boundaries. Returns false if the user interrupted it.
-bool makeMesh(const MeshArguments& arguments, MadeMesh& made)
+/// Throws IOError if the input has columns, which need the mesh in memory.
+void requireNoColumns(const MeshArguments& arguments, const PointTable& points)
+{
+  if (!points.Columns.empty())
+  {
+    const std::string& path =
+      arguments.Points.empty() ? arguments.Constraints.name() : arguments.Points.front();
+    throw IOError(path,
+      "has the column '" + points.Columns.front().Name +
+        "', which --memory cannot interpolate; leave out --memory, or the column.");
+  }
+}
+
+/// Takes the nodes, triangles and segments over from a mesh.
+void takeMesh(const MeshArguments& arguments, PointsMesh&& mesh, MadeMesh& made)
+{
+  const std::size_t before = made.Points.size() + std::size_t(mesh.Crossings);
+  const bool isPaged = !arguments.Memory.empty();
+  const std::size_t inTable = isPaged ? std::size_t(mesh.Crossings) : mesh.NewXY.size() / 2;
+  appendPoints(mesh, inTable, made.Points);
+  if (isPaged)
+  {
+    made.NewXY = std::move(mesh.NewXY);
+    made.InTable = inTable;
+  }
+  made.Triangles = std::move(mesh.Mesh.Triangles);
+  made.Regions.assign(mesh.Mesh.RegionOf.begin(), mesh.Mesh.RegionOf.end());
+  for (const IdSegment& segment : mesh.Mesh.Segments)
+  {
+    made.Segments.push_back({ segment.A, segment.B });
+  }
+  made.Refined = std::move(mesh.Mesh);
+  made.LeftOut = removeUnused(before, made);
+}
+
+/// Makes the mesh in `memory`, without depths and boundaries. Returns false if the user interrupted
+/// it.
+bool makeMesh(const MeshArguments& arguments, PagedMemory* memory, MadeMesh& made)
 {
   SourceConstraints source;
   made.Points = readInput(arguments, source);
   made.GivenPoints = std::int64_t(made.Points.size());
+  if (memory)
+  {
+    requireNoColumns(arguments, made.Points);
+  }
   const auto bar = std::make_unique<ProgressBar>("Meshing");
   MeshRequest request;
   request.Source = &source;
@@ -547,6 +608,7 @@ bool makeMesh(const MeshArguments& arguments, MadeMesh& made)
   request.HasValues = !made.Points.Columns.empty();
   request.Refinement = refinementOptions(arguments);
   request.SmoothingRounds = arguments.SmoothingRounds;
+  request.Refinement.Memory = memory;
   const Report progress = progressOn(bar);
   request.Refinement.Progress = progress;
   std::optional<SizeFunction> sizes;
@@ -574,22 +636,14 @@ bool makeMesh(const MeshArguments& arguments, MadeMesh& made)
       "or move the points of holes off the segments.");
   }
   printWarnings(warnings);
-  appendPoints(mesh, made.Points);
-  made.Triangles.assign(mesh.Mesh.Triangles.begin(), mesh.Mesh.Triangles.end());
-  made.Regions.assign(mesh.Mesh.RegionOf.begin(), mesh.Mesh.RegionOf.end());
-  for (const IdSegment& segment : mesh.Mesh.Segments)
-  {
-    made.Segments.push_back({ segment.A, segment.B });
-  }
-  made.Refined = std::move(mesh.Mesh);
-  made.LeftOut = removeUnused(made);
+  takeMesh(arguments, std::move(mesh), made);
   return true;
 }
 
 /// Returns a point in each hole, with which the segments of Triangle's .poly file enclose the mesh.
 std::vector<Point2> holesOf(const MadeMesh& made)
 {
-  const HolePoints holes = findHolePoints(made.Points.XY, viewOf(made), made.Segments);
+  const HolePoints holes = findHolePoints(made.nodes(), viewOf(made), made.Segments);
   if (holes.TooThin > 0)
   {
     fmt::print(stderr,
@@ -612,7 +666,7 @@ bool writeMade(const MeshArguments& arguments, const MadeMesh& made, const PathS
   {
     options.Holes = holesOf(made);
   }
-  return writeMesh(arguments.Output, made.Points, viewOf(made), options);
+  return writeMesh(arguments.Output, made.nodes(), viewOf(made), options);
 }
 
 /// Whether --size is a number, not a file.
@@ -663,12 +717,26 @@ PathState requireOutputs(const MeshArguments& arguments)
   return requireWritable(arguments.Output, arguments.Statistics, inputs);
 }
 
+/// Returns where the mesh is if --memory is given; otherwise null. Throws IOError.
+std::unique_ptr<PagedMemory> memoryOf(const MeshArguments& arguments)
+{
+  if (arguments.Memory.empty())
+  {
+    return nullptr;
+  }
+  const std::string folder = arguments.Scratch.empty()
+    ? std::filesystem::path(arguments.Output).parent_path().string()
+    : arguments.Scratch;
+  return std::make_unique<PagedMemory>(folder, *parseMemorySize(arguments.Memory));
+}
+
 int runMesh(const MeshArguments& arguments)
 {
   const PathState before = requireOutputs(arguments);
+  const std::unique_ptr<PagedMemory> memory = memoryOf(arguments);
   MadeMesh made;
   Stopwatch watch;
-  if (!makeMesh(arguments, made) || isInterrupted())
+  if (!makeMesh(arguments, memory.get(), made) || isInterrupted())
   {
     return reportInterrupt();
   }
@@ -718,6 +786,27 @@ void requireFittingSizes(const MeshArguments& arguments)
     "must not be above --max-size");
 }
 
+/// Throws CLI::ValidationError for options that need the whole mesh in memory beside --memory.
+void requireFittingMemory(const MeshArguments& arguments)
+{
+  refuseIf(!arguments.Scratch.empty() && arguments.Memory.empty(), "--scratch", "needs --memory");
+  if (arguments.Memory.empty())
+  {
+    return;
+  }
+  const auto refuse = [](bool isGiven, const char* option)
+  { refuseIf(isGiven, "--memory", std::string("cannot be combined with ") + option); };
+  refuseIf(!arguments.KeepOrder, "--memory",
+    "needs --keep-order, because to renumber the nodes the whole mesh must be in memory");
+  refuse(arguments.SmoothingRounds > 0, "--smooth");
+  refuse(!arguments.Sizes.Depth.empty(), "--depth");
+  refuse(!arguments.Regions.empty(), "--region");
+  refuse(!arguments.RegionFile.empty(), "--regions");
+  refuseIf(arguments.OutputIs == Opener::Adcirc || arguments.OutputIs == Opener::Netcdf, "--memory",
+    "cannot write " + extensionOf(arguments.Output) +
+      ", which needs the whole mesh in memory; name a .vtu, .vtp, .2dm, .msh or .node file");
+}
+
 /// Throws CLI::ValidationError for options that would have no effect or contradict each other.
 void requireFitting(const MeshArguments& arguments)
 {
@@ -726,6 +815,7 @@ void requireFitting(const MeshArguments& arguments)
   refuseIf(arguments.KeepBorder && arguments.KeepSegments, "--keep-border",
     "has no effect beside --keep-segments, which also keeps the border");
   requireFittingSizes(arguments);
+  requireFittingMemory(arguments);
   const bool hasDepths = !arguments.Sizes.Depth.empty();
   refuseIf(arguments.OpenDepth && !hasDepths, "--open-deeper", "needs --depth");
   refuseIf(arguments.OpenDepth && !arguments.OpenPolygon.empty(), "--open-deeper",
@@ -869,6 +959,12 @@ void addOptions(CLI::App& command, MeshArguments& arguments)
   addSizes(command, arguments.Sizes);
   addModel(command, arguments);
   addCurveOption(command);
+  command
+    .add_option("--memory", arguments.Memory,
+      "A memory limit, such as 1G: the mesh is in temporary files, and may be larger than memory")
+    ->check(checkRunMemory);
+  command.add_option("--scratch", arguments.Scratch,
+    "With --memory: a folder for temporary files (default: that of the output)");
   addThreadsOption(command, arguments.Threads);
   command.add_option("--stats", arguments.Statistics,
     "Write figures and the triangles below the bounds to a JSON file");

@@ -57,10 +57,6 @@ std::string checkMemorySize(const std::string& text)
   return parseMemorySize(text) ? "" : "'" + text + "' is not a number of bytes, such as 512M or 2G";
 }
 
-namespace
-{
-
-/// Validates the memory limit of a run out of core: returns an error message, or an empty text.
 std::string checkRunMemory(const std::string& text)
 {
   // The smallest buffers for reading points, and the smallest pieces, take about as much.
@@ -70,6 +66,9 @@ std::string checkRunMemory(const std::string& text)
     ? problem
     : "'" + text + "' is too little: give 1M or more";
 }
+
+namespace
+{
 
 std::string checkClass(const std::string& text)
 {

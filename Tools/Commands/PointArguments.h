@@ -135,6 +135,9 @@ std::optional<std::uint64_t> parseMemorySize(const std::string& text);
 /// Validates a memory size on the command line: returns an error message, or an empty text.
 std::string checkMemorySize(const std::string& text);
 
+/// Validates the memory limit of a run out of core: returns an error message, or an empty text.
+std::string checkRunMemory(const std::string& text);
+
 /// Validates a finite number above 0 on the command line: returns an error message, or an empty
 /// text.
 std::string checkPositive(const std::string& text);

@@ -51,8 +51,10 @@ struct Grid
 
   HolePoints holes() const
   {
+    PointTable points;
+    points.XY = this->XY;
     return findHolePoints(
-      this->XY, TrianglesView(this->Ids.data(), this->Ids.size() / 3), this->Segments);
+      points, TrianglesView(this->Ids.data(), this->Ids.size() / 3), this->Segments);
   }
 
   std::vector<double> XY;

@@ -54,7 +54,8 @@ TEST(NodeOrder, BandwidthIsReportedAsItIsOnceApplied)
   {
     points.Columns[0].Values.push_back(mesh.XY[2 * i]);
   }
-  Ids triangles = mesh.Triangles;
+  Buffer<std::int32_t> triangles(mesh.Triangles.size());
+  std::copy(mesh.Triangles.begin(), mesh.Triangles.end(), triangles.begin());
   applyNodeOrder(order, points, triangles);
   const TrianglesView view(triangles.data(), triangles.size() / 3);
   EXPECT_EQ(bandwidthOf(mesh.view(), order), bandwidthOf(view));

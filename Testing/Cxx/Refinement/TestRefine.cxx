@@ -2,6 +2,9 @@
 #include "RefinementTesting.h"
 
 #include "RealData.h"
+#include "TemporaryFolder.h"
+
+#include "Files/PagedMemory.h"
 
 #include <gtest/gtest.h>
 
@@ -258,6 +261,24 @@ TEST(Refine, IsTheSameForAnyNumberOfThreads)
       EXPECT_TRUE(areSame(one, refineGraph(graph, options))) << threads;
     }
     EXPECT_TRUE(isRight(graph, one, "30", 0.00004));
+  }
+}
+
+TEST(Refine, IsTheSameInPagedMemory)
+{
+  const TemporaryFolder folder;
+  PagedMemory memory(folder.path("."), 1 << 20); // less than the program itself
+  for (const LineGraph& graph : { comb(), spiral(), fan(20), randomGraph(7, 30, 12) })
+  {
+    RefinementOptions options = withAngle(30, 0.00004);
+    options.ShortestEdge = 1e-4;
+    const Refined inMemory = refineGraph(graph, options);
+    options.Memory = &memory;
+    for (const int threads : { 1, 2, 3, 4 })
+    {
+      options.Threads = threads;
+      EXPECT_TRUE(areSame(inMemory, refineGraph(graph, options))) << threads;
+    }
   }
 }
 

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Files/PagedMemory.h"
+
+#include "Files/IOError.h"
+#include "Files/OutputFile.h"
+#include "Files/Platform.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <chrono>
+#include <condition_variable>
+#include <cstdlib>
+#include <filesystem>
+#include <mutex>
+#include <set>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+namespace tipp
+{
+namespace
+{
+
+/// Opens a new file without a name. Throws IOError.
+int openUnnamed(const std::string& folder)
+{
+#ifdef O_TMPFILE
+  const int unnamed = open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
+  if (unnamed >= 0)
+  {
+    return unnamed;
+  }
+#endif
+  std::string path = (std::filesystem::path(folder) / ".tipp-XXXXXX").string();
+  const int file = mkstemp(path.data());
+  if (file < 0)
+  {
+    failToWrite(folder);
+  }
+  unlink(path.c_str());
+  fcntl(file, F_SETFD, FD_CLOEXEC);
+  return file;
+}
+
+} // namespace
+
+/// The mapped ranges of all files.
+class PagedMemory::Pages
+{
+public:
+  using Range = std::pair<char*, std::size_t>; ///< begin and bytes
+
+  void add(const Range& range)
+  {
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    this->Ranges.insert(range);
+  }
+  /// Once this returns, release() does not touch the range.
+  void remove(const Range& range)
+  {
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    this->Ranges.erase(range);
+  }
+  /// Hands all pages back. Other threads may use them at the same time: the mappings are shared, so
+  /// the content is in the system's cache or in the file.
+  void release()
+  {
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    for (const auto& [begin, bytes] : this->Ranges)
+    {
+      static_cast<void>(madvise(begin, bytes, MADV_DONTNEED));
+    }
+  }
+
+private:
+  std::mutex Mutex;
+  std::set<Range> Ranges;
+};
+
+/// A file without a name, and its mapping.
+class PagedMemory::File : public GrowingMemory
+{
+public:
+  File(const std::string& folder, std::size_t size, std::shared_ptr<Pages> all)
+    : Folder(folder)
+    , Descriptor(openUnnamed(folder))
+    , Size(size)
+    , All(std::move(all))
+  {
+    void* const memory =
+      mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_NORESERVE, this->Descriptor, 0);
+    if (memory == MAP_FAILED)
+    {
+      close(this->Descriptor);
+      throw std::bad_alloc();
+    }
+    this->Memory = static_cast<char*>(memory);
+    this->All->add({ this->Memory, size });
+  }
+  ~File() override
+  {
+    this->All->remove({ this->Memory, this->Size });
+    munmap(this->Memory, this->Size);
+    close(this->Descriptor);
+  }
+
+  void* data() override { return this->Memory; }
+  std::size_t grow(std::size_t bytes) override
+  {
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    if (bytes > this->Usable)
+    {
+      // In large steps, so that files have few extents.
+      constexpr std::size_t least = std::size_t(1) << 20;
+      constexpr std::size_t most = std::size_t(256) << 20;
+      const std::size_t more = std::clamp(this->Usable / 4, least, most);
+      const std::size_t end = std::min(this->Size, std::max(bytes, this->Usable + more));
+      this->allocate(end);
+      this->Usable = end;
+    }
+    return this->Usable;
+  }
+
+private:
+  /// Extends the file to `end` bytes, with all blocks: a write to a page without one would end the
+  /// process by SIGBUS once the disk is full.
+  void allocate(std::size_t end)
+  {
+    int problem = EINTR;
+    while (problem == EINTR)
+    {
+      problem = allocateRange(this->Descriptor, off_t(this->Usable), off_t(end - this->Usable));
+    }
+    if (problem != 0)
+    {
+      errno = problem;
+      failToWrite(this->Folder);
+    }
+  }
+
+  const std::string Folder;
+  const int Descriptor;
+  const std::size_t Size;
+  const std::shared_ptr<Pages> All;
+  char* Memory = nullptr;
+  std::mutex Mutex;
+  std::size_t Usable = 0; ///< bytes of the file
+};
+
+/// The thread that keeps the limit.
+class PagedMemory::Watch
+{
+public:
+  Watch(std::shared_ptr<Pages> all, std::uint64_t limit)
+    : All(std::move(all))
+    , Limit(limit)
+    , Thread([this] { this->run(); })
+  {
+  }
+  ~Watch()
+  {
+    {
+      const std::lock_guard<std::mutex> lock(this->Mutex);
+      this->IsEnding = true;
+    }
+    this->End.notify_all();
+    this->Thread.join();
+  }
+
+private:
+  void run()
+  {
+    // Two threads touch about 10 MB of pages in this time.
+    constexpr std::chrono::milliseconds pause(5);
+    std::unique_lock<std::mutex> lock(this->Mutex);
+    while (!this->End.wait_for(lock, pause, [this] { return this->IsEnding; }))
+    {
+      this->check();
+    }
+  }
+
+  void check()
+  {
+    const ResidentMemory now = residentMemory();
+    // If other memory takes up the limit, handing back few pages would cost much and gain little.
+    constexpr std::uint64_t least = std::uint64_t(8) << 20;
+    const std::uint64_t room = std::min<std::uint64_t>(this->Limit / 8, std::uint64_t(64) << 20);
+    if (now.Bytes + room > this->Limit && now.Mapped > this->Kept + least)
+    {
+      this->All->release();
+      this->Kept = residentMemory().Mapped;
+    }
+    this->Kept = std::min(this->Kept, now.Mapped);
+  }
+
+  const std::shared_ptr<Pages> All;
+  const std::uint64_t Limit;
+  std::uint64_t Kept = 0; ///< bytes of files that stay resident, such as the program's code
+  std::mutex Mutex;
+  std::condition_variable End;
+  bool IsEnding = false;
+  std::thread Thread; ///< last, because it uses the others
+};
+
+PagedMemory::PagedMemory(const std::string& folder, std::uint64_t limit)
+  : Folder(folder.empty() ? "." : folder)
+  , All(std::make_shared<Pages>())
+{
+  close(openUnnamed(this->Folder)); // reports a folder that cannot be used at once
+  this->Watcher = std::make_unique<Watch>(this->All, limit);
+}
+
+PagedMemory::~PagedMemory() = default;
+
+std::unique_ptr<GrowingMemory> PagedMemory::reserve(std::size_t size)
+{
+  return std::make_unique<File>(this->Folder, size, this->All);
+}
+
+} // namespace tipp
