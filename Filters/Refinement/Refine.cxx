@@ -229,6 +229,7 @@ void Refinement::forGroups(
         visit(chunks[std::size_t(begin / chunk)], groups[std::size_t(group)],
           groups[std::size_t(after)]);
       }
+      PagedMemory::keepLimits();
     });
 }
 
@@ -292,6 +293,7 @@ Buffer<Element> Refinement::collect() const
     const Element* const first = elements.data() + chunk * room;
     std::copy(first, first + parts[chunk].Count, elements.data() + end);
     end += parts[chunk].Count;
+    PagedMemory::keepLimits();
   }
   elements.truncate(end);
   return elements;
@@ -370,6 +372,7 @@ bool Refinement::runRound(const std::vector<RefinementBlock>& blocks, Buffer<Ele
     }
     const auto proceed = [&]
     {
+      PagedMemory::keepLimits();
       if (thread == 0 && this->Options.Progress && !this->Options.Progress(this->fractionDone()))
       {
         isStopped = true;
@@ -408,6 +411,7 @@ Buffer<Element> Refinement::join(const std::vector<BlockRefiner::Result>& result
   for (const BlockRefiner::Result& result : results)
   {
     to = std::copy(result.Waiting.begin(), result.Waiting.end(), to);
+    PagedMemory::keepLimits();
   }
   return elements;
 }
@@ -433,6 +437,7 @@ Buffer<Index> Refinement::addPoints(RefinedMesh& result) const
     added += std::exchange(chunk, added);
   }
   Buffer<Index> ids = bufferIn<Index>(this->Options.Memory, std::size_t(mesh.PointEnd));
+  result.IsUsed.assign(this->Points.size(), 0);
   result.AddedXY = bufferIn<double>(this->Options.Memory, 2 * std::size_t(added));
   this->forVertices(chunks,
     [&](std::int64_t& next, std::size_t vertex)
@@ -441,6 +446,7 @@ Buffer<Index> Refinement::addPoints(RefinedMesh& result) const
       if (RefinementMesh::isInput(origin))
       {
         ids[vertex] = RefinementMesh::inputId(origin);
+        result.IsUsed[std::size_t(ids[vertex])] = 1;
       }
       else if (isAdded(origin))
       {

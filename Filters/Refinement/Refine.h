@@ -52,6 +52,7 @@ struct RefinedMesh
   /// By triangle: the index of its region among RefinementOptions::Regions, or -1. Empty if no
   /// regions are given.
   Buffer<std::int32_t> RegionOf;
+  std::vector<char> IsUsed; ///< by point given: whether triangles have it
   /// The subsegments, by constraint; those of edges of the convex hull have the constraint -1.
   std::vector<IdSegment> Segments;
   std::vector<TriangleOutside> Outside; ///< those not as asked, ascending

@@ -41,7 +41,11 @@ public:
     PlacedElement* const first = this->Elements.begin();
     const PlacedElement* const middle =
       std::partition(first + std::ptrdiff_t(block.Begin), first + std::ptrdiff_t(block.End),
-        [axis = axis, at = at](const PlacedElement& element) { return element.At[axis] < at; });
+        [this, axis = axis, at = at](const PlacedElement& element)
+        {
+          this->countAccess();
+          return element.At[axis] < at;
+        });
     const std::size_t cut = std::size_t(middle - first);
     if (cut == block.Begin || cut == block.End) // the elements are too close together
     {
@@ -80,11 +84,12 @@ private:
   }
 
   /// Across the longer side, where fewest elements are between its first and last third of them.
-  Cut emptiest(const RefinementBlock& block) const
+  Cut emptiest(const RefinementBlock& block)
   {
     Box2 box = Box2::empty();
     for (std::size_t i = block.Begin; i < block.End; ++i)
     {
+      this->countAccess();
       box.extend(this->Elements[i].At);
     }
     const std::size_t axis = longerAxis(box);
@@ -93,6 +98,7 @@ private:
     const double scale = double(bins) / box.width(axis);
     for (std::size_t i = block.Begin; i < block.End; ++i)
     {
+      this->countAccess();
       // The last bin is for the upper end alone; also if all have the same coordinate.
       const double bin = (this->Elements[i].At[axis] - box.Min[axis]) * scale;
       ++counts[bin < double(bins) ? std::size_t(bin) : bins];
@@ -115,10 +121,21 @@ private:
     return { axis, box.Min[axis] + (double(best) + 0.5) / scale };
   }
 
+  /// To be called for each element that is read, of which there may be more than memory holds.
+  void countAccess()
+  {
+    constexpr std::size_t often = std::size_t(1) << 16;
+    if (++this->Accesses % often == 0)
+    {
+      PagedMemory::keepLimits();
+    }
+  }
+
   Buffer<PlacedElement>& Elements;
   const std::size_t Size; ///< largest number of elements of a block
   const bool AvoidsBorders;
   std::vector<Point2> Sample;
+  std::size_t Accesses = 0;
 };
 
 } // namespace
@@ -135,16 +152,27 @@ std::vector<RefinementBlock> makeBlocks(const RefinementMesh& mesh,
   {
     return { { plane, 0, elements.size() } };
   }
+  const auto forElements = [&](const auto& visit)
+  {
+    constexpr std::int64_t chunk = 1 << 13;
+    forChunks(std::int64_t(elements.size()), chunk, threads, {},
+      [&](std::int64_t begin, std::int64_t end, int)
+      {
+        for (std::int64_t i = begin; i < end; ++i)
+        {
+          visit(std::size_t(i));
+        }
+        PagedMemory::keepLimits();
+      });
+  };
   Buffer<PlacedElement> placed = bufferIn<PlacedElement>(memory, elements.size());
-  forIndices(
-    std::int64_t(placed.size()),
-    [&](std::int64_t i)
+  forElements(
+    [&](std::size_t i)
     {
-      const RefinementQueue::Element element = elements[std::size_t(i)];
+      const RefinementQueue::Element element = elements[i];
       const RefinementMesh::Index corner = mesh.Triangles[std::size_t(element.Triangle)].Corner[0];
-      placed[std::size_t(i)] = { mesh.Points[std::size_t(corner)], element };
-    },
-    threads);
+      placed[i] = { mesh.Points[std::size_t(corner)], element };
+    });
   // A few large blocks first, which threads then cut.
   constexpr int coarse = 4;
   constexpr int all = 64;
@@ -163,9 +191,7 @@ std::vector<RefinementBlock> makeBlocks(const RefinementMesh& mesh,
   {
     blocks.insert(blocks.end(), part.begin(), part.end());
   }
-  forIndices(
-    std::int64_t(placed.size()),
-    [&](std::int64_t i) { elements[std::size_t(i)] = placed[std::size_t(i)].What; }, threads);
+  forElements([&](std::size_t i) { elements[i] = placed[i].What; });
   return blocks;
 }
 

@@ -9,14 +9,12 @@
 #include <atomic>
 #include <cerrno>
 #include <chrono>
-#include <condition_variable>
 #include <cstdlib>
 #include <filesystem>
 #include <mutex>
+#include <new>
 #include <set>
-#include <thread>
 #include <utility>
-#include <vector>
 
 #include <fcntl.h>
 #include <sys/mman.h>
@@ -56,32 +54,88 @@ class PagedMemory::Pages
 public:
   using Range = std::pair<char*, std::size_t>; ///< begin and bytes
 
+  explicit Pages(std::uint64_t limit)
+    : Limit(limit)
+  {
+  }
+
   void add(const Range& range)
   {
     const std::lock_guard<std::mutex> lock(this->Mutex);
     this->Ranges.insert(range);
   }
-  /// Once this returns, release() does not touch the range.
+  /// Once this returns, no other method touches the range.
   void remove(const Range& range)
   {
     const std::lock_guard<std::mutex> lock(this->Mutex);
     this->Ranges.erase(range);
   }
-  /// Hands all pages back. Other threads may use them at the same time: the mappings are shared, so
-  /// the content is in the system's cache or in the file.
-  void release()
+
+  /// Hands all pages back if the limit requires it. Other threads may use them at the same time:
+  /// the mappings are shared, so the content is in the system's cache or in the file.
+  void keepLimit()
   {
-    const std::lock_guard<std::mutex> lock(this->Mutex);
-    for (const auto& [begin, bytes] : this->Ranges)
+    const ResidentMemory now = residentMemory();
+    // Room for what threads touch until this is called again.
+    const std::uint64_t room = std::min<std::uint64_t>(this->Limit / 4, std::uint64_t(256) << 20);
+    if (now.Bytes + room <= this->Limit)
     {
-      static_cast<void>(madvise(begin, bytes, MADV_DONTNEED));
+      return;
+    }
+    const std::unique_lock<std::mutex> lock(this->Mutex, std::try_to_lock);
+    // If other memory takes up the limit, handing back few pages would cost much and gain little.
+    constexpr std::uint64_t least = std::uint64_t(8) << 20;
+    if (!lock)
+    {
+      return; // another thread is at it
+    }
+    this->Kept = std::min(this->Kept, now.Mapped);
+    if (now.Mapped > this->Kept + least)
+    {
+      for (const auto& [begin, bytes] : this->Ranges)
+      {
+        static_cast<void>(madvise(begin, bytes, MADV_DONTNEED));
+      }
+      this->Kept = residentMemory().Mapped;
     }
   }
 
 private:
+  const std::uint64_t Limit;
   std::mutex Mutex;
   std::set<Range> Ranges;
+  std::uint64_t Kept = 0; ///< bytes of files that stayed resident, such as the program's code
 };
+
+/// All objects' pages.
+struct PagedMemory::Registry
+{
+  std::mutex Mutex;
+  std::set<std::shared_ptr<Pages>> Members;
+  std::atomic<std::size_t> Count{ 0 }; ///< of members, read without the mutex
+};
+
+PagedMemory::Registry& PagedMemory::registry()
+{
+  static Registry all;
+  return all;
+}
+
+void PagedMemory::keepLimits()
+{
+  Registry& all = registry();
+  if (all.Count.load(std::memory_order_relaxed) > 0)
+  {
+    const std::unique_lock<std::mutex> lock(all.Mutex, std::try_to_lock);
+    if (lock) // else another thread does it
+    {
+      for (const std::shared_ptr<Pages>& pages : all.Members)
+      {
+        pages->keepLimit();
+      }
+    }
+  }
+}
 
 /// A file without a name, and its mapping.
 class PagedMemory::File : public GrowingMemory
@@ -153,70 +207,40 @@ private:
   std::size_t Usable = 0; ///< bytes of the file
 };
 
-/// The thread that keeps the limit.
-class PagedMemory::Watch
-{
-public:
-  Watch(std::shared_ptr<Pages> all, std::uint64_t limit)
-    : All(std::move(all))
-    , Limit(limit)
-    , Thread([this] { this->run(); })
-  {
-  }
-  ~Watch()
-  {
-    {
-      const std::lock_guard<std::mutex> lock(this->Mutex);
-      this->IsEnding = true;
-    }
-    this->End.notify_all();
-    this->Thread.join();
-  }
-
-private:
-  void run()
-  {
-    // Two threads touch about 10 MB of pages in this time.
-    constexpr std::chrono::milliseconds pause(5);
-    std::unique_lock<std::mutex> lock(this->Mutex);
-    while (!this->End.wait_for(lock, pause, [this] { return this->IsEnding; }))
-    {
-      this->check();
-    }
-  }
-
-  void check()
-  {
-    const ResidentMemory now = residentMemory();
-    // If other memory takes up the limit, handing back few pages would cost much and gain little.
-    constexpr std::uint64_t least = std::uint64_t(8) << 20;
-    const std::uint64_t room = std::min<std::uint64_t>(this->Limit / 8, std::uint64_t(64) << 20);
-    if (now.Bytes + room > this->Limit && now.Mapped > this->Kept + least)
-    {
-      this->All->release();
-      this->Kept = residentMemory().Mapped;
-    }
-    this->Kept = std::min(this->Kept, now.Mapped);
-  }
-
-  const std::shared_ptr<Pages> All;
-  const std::uint64_t Limit;
-  std::uint64_t Kept = 0; ///< bytes of files that stay resident, such as the program's code
-  std::mutex Mutex;
-  std::condition_variable End;
-  bool IsEnding = false;
-  std::thread Thread; ///< last, because it uses the others
-};
-
 PagedMemory::PagedMemory(const std::string& folder, std::uint64_t limit)
   : Folder(folder.empty() ? "." : folder)
-  , All(std::make_shared<Pages>())
+  , All(std::make_shared<Pages>(limit))
 {
   close(openUnnamed(this->Folder)); // reports a folder that cannot be used at once
-  this->Watcher = std::make_unique<Watch>(this->All, limit);
+  {
+    const std::lock_guard<std::mutex> lock(registry().Mutex);
+    registry().Members.insert(this->All);
+    ++registry().Count;
+  }
+  this->Watch = std::thread(
+    [this]
+    {
+      constexpr std::chrono::milliseconds pause(2);
+      std::unique_lock<std::mutex> lock(this->Mutex);
+      while (!this->End.wait_for(lock, pause, [this] { return this->IsEnding; }))
+      {
+        this->All->keepLimit();
+      }
+    });
 }
 
-PagedMemory::~PagedMemory() = default;
+PagedMemory::~PagedMemory()
+{
+  {
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    this->IsEnding = true;
+  }
+  this->End.notify_all();
+  this->Watch.join();
+  const std::lock_guard<std::mutex> lock(registry().Mutex);
+  registry().Members.erase(this->All);
+  --registry().Count;
+}
 
 std::unique_ptr<GrowingMemory> PagedMemory::reserve(std::size_t size)
 {

@@ -7,10 +7,13 @@
 #include "Arrays/ReservedArray.h"
 #include "vtkTIPPIOModule.h"
 
+#include <condition_variable>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <string>
+#include <thread>
 
 namespace tipp
 {
@@ -31,6 +34,11 @@ public:
   ~PagedMemory();
   PagedMemory(const PagedMemory&) = delete;
   PagedMemory& operator=(const PagedMemory&) = delete;
+
+  /// Hands pages back if more memory than a limit is resident. The threads do so, too, but may have
+  /// to wait for a processor: loops over whole arrays call this about each megabyte. Costs about a
+  /// microsecond, and nothing while no object exists.
+  static void keepLimits();
 
   /// Returns memory of `size` bytes, whose space on the disk is reserved as it grows, so that a
   /// full disk is an error of grow(), not a crash later. This and grow() throw IOError.
@@ -57,10 +65,14 @@ public:
 private:
   class Pages;
   class File;
-  class Watch;
+  struct Registry;
+  static Registry& registry();
   std::string Folder;
-  std::shared_ptr<Pages> All; ///< shared with the files
-  std::unique_ptr<Watch> Watcher;
+  std::shared_ptr<Pages> All; ///< shared with the files and with keepLimits()
+  std::mutex Mutex;
+  std::condition_variable End;
+  bool IsEnding = false;
+  std::thread Watch; ///< last, because it uses the others
 };
 
 /// Returns an array in `memory`, or in the process's own memory if it is null. Its values are

@@ -2,10 +2,10 @@
 #ifndef tippPlatform_h
 #define tippPlatform_h
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdint>
 #include <cstdio>
-#include <fstream>
 #include <string>
 
 #include <fcntl.h>
@@ -98,10 +98,13 @@ inline ResidentMemory residentMemory()
 {
   ResidentMemory result;
 #ifdef __linux__
-  std::uint64_t all = 0;
-  std::uint64_t resident = 0;
-  std::uint64_t mapped = 0;
-  if (std::ifstream("/proc/self/statm") >> all >> resident >> mapped)
+  static const int file = open("/proc/self/statm", O_RDONLY | O_CLOEXEC);
+  char text[128];
+  const ssize_t size = pread(file, text, sizeof(text) - 1, 0);
+  text[std::max<ssize_t>(0, size)] = '\0';
+  unsigned long long resident = 0;
+  unsigned long long mapped = 0;
+  if (std::sscanf(text, "%*u %llu %llu", &resident, &mapped) == 2)
   {
     const auto page = std::uint64_t(sysconf(_SC_PAGESIZE));
     result = { resident * page, mapped * page };

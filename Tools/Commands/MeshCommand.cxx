@@ -225,22 +225,16 @@ void renumberSegments(const NumberOf& numberOf, MadeMesh& made)
   }
 }
 
-/// Removes points that are in no triangle, which models do not accept. Only the first `count` can
-/// be such: refinement uses all points that it adds. Returns how many.
-std::int64_t removeUnused(std::size_t count, MadeMesh& made)
+/// Removes points that are in no triangle, which models do not accept. They are among those given
+/// to the refinement, since it uses all points that it adds. Returns how many.
+std::int64_t removeUnused(const std::vector<char>& isUsed, MadeMesh& made)
 {
-  std::vector<std::int64_t> numbers(count, -1);
-  for (const std::int32_t id : made.Triangles)
-  {
-    if (std::size_t(id) < count)
-    {
-      numbers[std::size_t(id)] = 0;
-    }
-  }
+  const std::size_t count = isUsed.size();
+  std::vector<std::int64_t> numbers(count);
   std::int64_t used = 0;
-  for (std::int64_t& number : numbers)
+  for (std::size_t i = 0; i < count; ++i)
   {
-    number = number == 0 ? used++ : -1;
+    numbers[i] = isUsed[i] ? used++ : -1;
   }
   const std::int64_t left = std::int64_t(count) - used;
   if (left > 0)
@@ -260,6 +254,21 @@ std::int64_t removeUnused(std::size_t count, MadeMesh& made)
 TrianglesView viewOf(const MadeMesh& made)
 {
   return TrianglesView(made.Triangles.data(), made.Triangles.size() / 3);
+}
+
+/// The bandwidth of a mesh that may be larger than memory.
+std::int64_t bandwidthOf(const MadeMesh& made)
+{
+  constexpr std::size_t most = 1 << 16; // triangles that are read at once
+  const std::size_t count = made.Triangles.size() / 3;
+  std::int64_t bandwidth = 0;
+  for (std::size_t first = 0; first < count; first += most)
+  {
+    const TrianglesView part(made.Triangles.data() + 3 * first, std::min(most, count - first));
+    bandwidth = std::max(bandwidth, bandwidthOf(part));
+    PagedMemory::keepLimits();
+  }
+  return bandwidth;
 }
 
 /// Renumbers the nodes if that makes the bandwidth smaller.
@@ -570,7 +579,6 @@ void requireNoColumns(const MeshArguments& arguments, const PointTable& points)
 /// Takes the nodes, triangles and segments over from a mesh.
 void takeMesh(const MeshArguments& arguments, PointsMesh&& mesh, MadeMesh& made)
 {
-  const std::size_t before = made.Points.size() + std::size_t(mesh.Crossings);
   const bool isPaged = !arguments.Memory.empty();
   const std::size_t inTable = isPaged ? std::size_t(mesh.Crossings) : mesh.NewXY.size() / 2;
   appendPoints(mesh, inTable, made.Points);
@@ -586,7 +594,7 @@ void takeMesh(const MeshArguments& arguments, PointsMesh&& mesh, MadeMesh& made)
     made.Segments.push_back({ segment.A, segment.B });
   }
   made.Refined = std::move(mesh.Mesh);
-  made.LeftOut = removeUnused(before, made);
+  made.LeftOut = removeUnused(made.Refined.IsUsed, made);
 }
 
 /// Makes the mesh in `memory`, without depths and boundaries. Returns false if the user interrupted
@@ -740,7 +748,7 @@ int runMesh(const MeshArguments& arguments)
   {
     return reportInterrupt();
   }
-  made.Bandwidth = bandwidthOf(viewOf(made));
+  made.Bandwidth = bandwidthOf(made);
   if (!arguments.KeepOrder)
   {
     orderNodes(made);
