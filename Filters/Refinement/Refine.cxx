@@ -228,8 +228,12 @@ void Refinement::forGroups(
         const std::int64_t after = std::min(group + 1, count - 1);
         visit(chunks[std::size_t(begin / chunk)], groups[std::size_t(group)],
           groups[std::size_t(after)]);
+        constexpr std::int64_t often = 32; // groups: vertices of triangles may be far apart
+        if (group % often == 0)
+        {
+          PagedMemory::keepLimits();
+        }
       }
-      PagedMemory::keepLimits();
     });
 }
 

@@ -14,6 +14,7 @@
 #include <mutex>
 #include <new>
 #include <set>
+#include <shared_mutex>
 #include <utility>
 
 #include <fcntl.h>
@@ -75,22 +76,19 @@ public:
   /// the mappings are shared, so the content is in the system's cache or in the file.
   void keepLimit()
   {
-    const ResidentMemory now = residentMemory();
     // Room for what threads touch until this is called again.
     const std::uint64_t room = std::min<std::uint64_t>(this->Limit / 4, std::uint64_t(256) << 20);
-    if (now.Bytes + room <= this->Limit)
+    if (residentMemory().Bytes + room <= this->Limit)
     {
       return;
     }
-    const std::unique_lock<std::mutex> lock(this->Mutex, std::try_to_lock);
+    // While one thread hands pages back, the others wait, and so touch no further ones.
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    const ResidentMemory now = residentMemory();
     // If other memory takes up the limit, handing back few pages would cost much and gain little.
     constexpr std::uint64_t least = std::uint64_t(8) << 20;
-    if (!lock)
-    {
-      return; // another thread is at it
-    }
     this->Kept = std::min(this->Kept, now.Mapped);
-    if (now.Mapped > this->Kept + least)
+    if (now.Bytes + room > this->Limit && now.Mapped > this->Kept + least)
     {
       for (const auto& [begin, bytes] : this->Ranges)
       {
@@ -110,7 +108,7 @@ private:
 /// All objects' pages.
 struct PagedMemory::Registry
 {
-  std::mutex Mutex;
+  std::shared_mutex Mutex;
   std::set<std::shared_ptr<Pages>> Members;
   std::atomic<std::size_t> Count{ 0 }; ///< of members, read without the mutex
 };
@@ -126,13 +124,10 @@ void PagedMemory::keepLimits()
   Registry& all = registry();
   if (all.Count.load(std::memory_order_relaxed) > 0)
   {
-    const std::unique_lock<std::mutex> lock(all.Mutex, std::try_to_lock);
-    if (lock) // else another thread does it
+    const std::shared_lock<std::shared_mutex> lock(all.Mutex);
+    for (const std::shared_ptr<Pages>& pages : all.Members)
     {
-      for (const std::shared_ptr<Pages>& pages : all.Members)
-      {
-        pages->keepLimit();
-      }
+      pages->keepLimit();
     }
   }
 }
@@ -213,7 +208,7 @@ PagedMemory::PagedMemory(const std::string& folder, std::uint64_t limit)
 {
   close(openUnnamed(this->Folder)); // reports a folder that cannot be used at once
   {
-    const std::lock_guard<std::mutex> lock(registry().Mutex);
+    const std::lock_guard<std::shared_mutex> lock(registry().Mutex);
     registry().Members.insert(this->All);
     ++registry().Count;
   }
@@ -237,7 +232,7 @@ PagedMemory::~PagedMemory()
   }
   this->End.notify_all();
   this->Watch.join();
-  const std::lock_guard<std::mutex> lock(registry().Mutex);
+  const std::lock_guard<std::shared_mutex> lock(registry().Mutex);
   registry().Members.erase(this->All);
   --registry().Count;
 }

@@ -225,6 +225,18 @@ void renumberSegments(const NumberOf& numberOf, MadeMesh& made)
   }
 }
 
+/// Calls work(begin, end) for slices of the ids of triangles, which may be larger than memory.
+template <typename Ids, typename Work>
+void forSlices(Ids& ids, const Work& work)
+{
+  constexpr std::size_t slice = 3 << 16;
+  for (std::size_t first = 0; first < ids.size(); first += slice)
+  {
+    work(ids.data() + first, ids.data() + std::min(ids.size(), first + slice));
+    PagedMemory::keepLimits();
+  }
+}
+
 /// Removes points that are in no triangle, which models do not accept. They are among those given
 /// to the refinement, since it uses all points that it adds. Returns how many.
 std::int64_t removeUnused(const std::vector<char>& isUsed, MadeMesh& made)
@@ -242,10 +254,14 @@ std::int64_t removeUnused(const std::vector<char>& isUsed, MadeMesh& made)
     const auto numberOf = [&](std::int64_t id)
     { return std::size_t(id) < count ? numbers[std::size_t(id)] : id - left; };
     keepRows(numbers, made.Points);
-    for (std::int32_t& id : made.Triangles)
-    {
-      id = std::int32_t(numberOf(id));
-    }
+    forSlices(made.Triangles,
+      [&](std::int32_t* begin, const std::int32_t* end)
+      {
+        for (std::int32_t* id = begin; id != end; ++id)
+        {
+          *id = std::int32_t(numberOf(*id));
+        }
+      });
     renumberSegments(numberOf, made);
   }
   return left;
@@ -259,15 +275,13 @@ TrianglesView viewOf(const MadeMesh& made)
 /// The bandwidth of a mesh that may be larger than memory.
 std::int64_t bandwidthOf(const MadeMesh& made)
 {
-  constexpr std::size_t most = 1 << 16; // triangles that are read at once
-  const std::size_t count = made.Triangles.size() / 3;
   std::int64_t bandwidth = 0;
-  for (std::size_t first = 0; first < count; first += most)
-  {
-    const TrianglesView part(made.Triangles.data() + 3 * first, std::min(most, count - first));
-    bandwidth = std::max(bandwidth, bandwidthOf(part));
-    PagedMemory::keepLimits();
-  }
+  forSlices(made.Triangles,
+    [&](const std::int32_t* begin, const std::int32_t* end)
+    {
+      bandwidth =
+        std::max(bandwidth, bandwidthOf(TrianglesView(begin, std::size_t(end - begin) / 3)));
+    });
   return bandwidth;
 }
 
