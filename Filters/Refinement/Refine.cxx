@@ -231,7 +231,7 @@ void Refinement::forGroups(
         constexpr std::int64_t often = 32; // groups: vertices of triangles may be far apart
         if (group % often == 0)
         {
-          PagedMemory::keepLimits();
+          keepMemoryLimits();
         }
       }
     });
@@ -297,7 +297,7 @@ Buffer<Element> Refinement::collect() const
     const Element* const first = elements.data() + chunk * room;
     std::copy(first, first + parts[chunk].Count, elements.data() + end);
     end += parts[chunk].Count;
-    PagedMemory::keepLimits();
+    keepMemoryLimits();
   }
   elements.truncate(end);
   return elements;
@@ -376,7 +376,7 @@ bool Refinement::runRound(const std::vector<RefinementBlock>& blocks, Buffer<Ele
     }
     const auto proceed = [&]
     {
-      PagedMemory::keepLimits();
+      keepMemoryLimits();
       if (thread == 0 && this->Options.Progress && !this->Options.Progress(this->fractionDone()))
       {
         isStopped = true;
@@ -415,7 +415,7 @@ Buffer<Element> Refinement::join(const std::vector<BlockRefiner::Result>& result
   for (const BlockRefiner::Result& result : results)
   {
     to = std::copy(result.Waiting.begin(), result.Waiting.end(), to);
-    PagedMemory::keepLimits();
+    keepMemoryLimits();
   }
   return elements;
 }

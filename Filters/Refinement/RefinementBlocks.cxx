@@ -127,7 +127,7 @@ private:
     constexpr std::size_t often = std::size_t(1) << 16;
     if (++this->Accesses % often == 0)
     {
-      PagedMemory::keepLimits();
+      keepMemoryLimits();
     }
   }
 
@@ -162,7 +162,7 @@ std::vector<RefinementBlock> makeBlocks(const RefinementMesh& mesh,
         {
           visit(std::size_t(i));
         }
-        PagedMemory::keepLimits();
+        keepMemoryLimits();
       });
   };
   Buffer<PlacedElement> placed = bufferIn<PlacedElement>(memory, elements.size());

@@ -3,7 +3,7 @@
 
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
-#include "Files/PagedMemory.h"
+#include "Files/MemoryLimits.h"
 #include "Files/Platform.h"
 
 #include <algorithm>
@@ -181,7 +181,7 @@ protected:
 
   int sync() override
   {
-    PagedMemory::keepLimits(); // what is written may lie there
+    keepMemoryLimits(); // what is written may lie there
     const bool isWritten = this->write(this->pbase(), std::size_t(this->pptr() - this->pbase()));
     this->setp(this->Bytes.data(), this->Bytes.data() + this->Bytes.size());
     return isWritten ? 0 : -1;

@@ -6,7 +6,6 @@
 #include "Files/Platform.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <cstdlib>
@@ -14,7 +13,6 @@
 #include <mutex>
 #include <new>
 #include <set>
-#include <shared_mutex>
 #include <utility>
 
 #include <fcntl.h>
@@ -105,33 +103,6 @@ private:
   std::uint64_t Kept = 0; ///< bytes of files that stayed resident, such as the program's code
 };
 
-/// All objects' pages.
-struct PagedMemory::Registry
-{
-  std::shared_mutex Mutex;
-  std::set<std::shared_ptr<Pages>> Members;
-  std::atomic<std::size_t> Count{ 0 }; ///< of members, read without the mutex
-};
-
-PagedMemory::Registry& PagedMemory::registry()
-{
-  static Registry all;
-  return all;
-}
-
-void PagedMemory::keepLimits()
-{
-  Registry& all = registry();
-  if (all.Count.load(std::memory_order_relaxed) > 0)
-  {
-    const std::shared_lock<std::shared_mutex> lock(all.Mutex);
-    for (const std::shared_ptr<Pages>& pages : all.Members)
-    {
-      pages->keepLimit();
-    }
-  }
-}
-
 /// A file without a name, and its mapping.
 class PagedMemory::File : public GrowingMemory
 {
@@ -207,11 +178,6 @@ PagedMemory::PagedMemory(const std::string& folder, std::uint64_t limit)
   , All(std::make_shared<Pages>(limit))
 {
   close(openUnnamed(this->Folder)); // reports a folder that cannot be used at once
-  {
-    const std::lock_guard<std::shared_mutex> lock(registry().Mutex);
-    registry().Members.insert(this->All);
-    ++registry().Count;
-  }
   this->Watch = std::thread(
     [this]
     {
@@ -222,19 +188,23 @@ PagedMemory::PagedMemory(const std::string& folder, std::uint64_t limit)
         this->All->keepLimit();
       }
     });
+  this->list();
 }
 
 PagedMemory::~PagedMemory()
 {
+  this->unlist();
   {
     const std::lock_guard<std::mutex> lock(this->Mutex);
     this->IsEnding = true;
   }
   this->End.notify_all();
   this->Watch.join();
-  const std::lock_guard<std::shared_mutex> lock(registry().Mutex);
-  registry().Members.erase(this->All);
-  --registry().Count;
+}
+
+void PagedMemory::keepLimit()
+{
+  this->All->keepLimit();
 }
 
 std::unique_ptr<GrowingMemory> PagedMemory::reserve(std::size_t size)

@@ -5,6 +5,7 @@
 #include "Arrays/Buffer.h"
 #include "Arrays/GrowingMemory.h"
 #include "Arrays/ReservedArray.h"
+#include "Files/MemoryLimits.h"
 #include "vtkTIPPIOModule.h"
 
 #include <condition_variable>
@@ -25,20 +26,19 @@ namespace tipp
 /// not know, but should access the arrays in long runs.
 ///
 /// The limit holds for all memory of the process, but only pages of these arrays are handed back.
-class VTKTIPPIO_EXPORT PagedMemory
+class VTKTIPPIO_EXPORT PagedMemory : public LimitedMemory
 {
 public:
   /// `folder`: where the files are. `limit`: in bytes. Throws IOError if files cannot be made.
   PagedMemory(const std::string& folder, std::uint64_t limit);
   /// Pages of arrays that still exist are no longer handed back.
-  ~PagedMemory();
+  ~PagedMemory() override;
   PagedMemory(const PagedMemory&) = delete;
   PagedMemory& operator=(const PagedMemory&) = delete;
 
-  /// Hands pages back if more memory than a limit is resident. The threads do so, too, but may have
-  /// to wait for a processor: loops over whole arrays call this about each megabyte. Costs about a
-  /// microsecond, and nothing while no object exists.
-  static void keepLimits();
+  /// Hands pages back if more memory than the limit is resident. The thread does so, too, but may
+  /// have to wait for a processor: loops over whole arrays call keepMemoryLimits().
+  void keepLimit() override;
 
   /// Returns memory of `size` bytes, whose space on the disk is reserved as it grows, so that a
   /// full disk is an error of grow(), not a crash later. This and grow() throw IOError.
@@ -65,10 +65,8 @@ public:
 private:
   class Pages;
   class File;
-  struct Registry;
-  static Registry& registry();
   std::string Folder;
-  std::shared_ptr<Pages> All; ///< shared with the files and with keepLimits()
+  std::shared_ptr<Pages> All; ///< shared with the files
   std::mutex Mutex;
   std::condition_variable End;
   bool IsEnding = false;

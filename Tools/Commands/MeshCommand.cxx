@@ -233,7 +233,7 @@ void forSlices(Ids& ids, const Work& work)
   for (std::size_t first = 0; first < ids.size(); first += slice)
   {
     work(ids.data() + first, ids.data() + std::min(ids.size(), first + slice));
-    PagedMemory::keepLimits();
+    keepMemoryLimits();
   }
 }
 
@@ -1004,12 +1004,14 @@ The mesh is a constrained Delaunay triangulation that keeps every segment. No an
 below --min-angle, and no triangle larger than the limits allow: a size h allows the
 area of the equilateral triangle with edge h. Where segments meet below 60 degrees,
 smaller angles are left; --stats lists each with its reason, and 'tipp check --quality'
-proves the rest. The result does not depend on the number of threads.
+proves the rest. The result does not depend on the number of threads, nor on --memory.
+With it, the mesh may be larger than memory; it needs --keep-order.
 
 Examples:
   tipp mesh lake.shp -o lake.vtu --max-area 500
   tipp mesh coast.gpkg -o coast.14 --min-size 200 --dis 0.15 --max-size 5000
   tipp mesh bay.shp -o fort.14 --size 100 --depth dem.tif --positive-up --open sea.shp
+  tipp mesh coast.gpkg -o coast.vtu --size 20 --keep-order --memory 2G
   tipp mesh part.poly -o fine.node --min-angle 33 --stats fine.json
   tipp check fine.node --quality 33 --constraints part.poly --listed fine.json
 )";
