@@ -70,7 +70,7 @@ struct RefinedMesh
 /// `points` are those of the triangulation, with its crossings. Points of no triangle, such as
 /// those in holes, stay unused. The result is the same for any number of threads. Throws
 /// std::invalid_argument for options out of their range or a region's point in no triangle, and
-/// std::length_error if the mesh is too large for the memory or for 2^28 triangles.
+/// std::length_error if the mesh is too large for the memory or for 2^29 triangles.
 ///
 /// Delaunay refinement after Ruppert (1995) and Chew (1993) with the diametral lenses and
 /// concentric shells of Shewchuk (2002) and Üngör's off-centers (2004).

@@ -41,12 +41,13 @@ public:
 
   /// A link to the triangle across an edge: 8 t + i, where i is the index of the opposite corner
   /// there, plus IsSegment if the edge is a subsegment; Outside if there is no triangle.
-  using Link = std::int32_t;
+  using Link = std::uint32_t;
   static constexpr Link IsSegment = 4;
-  static constexpr Link Outside = -1; ///< it has the bit IsSegment: a border is a subsegment
-  static Link linkTo(Index triangle, int corner) { return 8 * triangle + corner; }
-  static Index triangleOf(Link link) { return link >> 3; }
-  static int cornerOf(Link link) { return link & 3; }
+  /// It has the bit IsSegment: a border is a subsegment. No corner has the index 3.
+  static constexpr Link Outside = 0xffffffff;
+  static Link linkTo(Index triangle, int corner) { return 8 * Link(triangle) + Link(corner); }
+  static Index triangleOf(Link link) { return Index(link >> 3); }
+  static int cornerOf(Link link) { return int(link & 3); }
   static bool isSegment(Link link) { return (link & IsSegment) != 0; }
 
   static int next(int corner) { return corner == 2 ? 0 : corner + 1; }
@@ -89,7 +90,7 @@ public:
   static constexpr Index PointsInGroup = 32;
   ///@}
 
-  static constexpr std::size_t MostTriangles = std::size_t(1) << 28; ///< links have 31 bits
+  static constexpr std::size_t MostTriangles = std::size_t(1) << 29; ///< links have 32 bits
 
   /// `memory`: where the arrays are, and outlives the mesh; null: the process's own.
   explicit RefinementMesh(PagedMemory* memory)
