@@ -1,0 +1,544 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Commands/MadeMesh.h"
+
+#include "Commands/PointArguments.h"
+#include "Commands/Report.h"
+#include "Console/Process.h"
+#include "Constraints/ReadRegions.h"
+#include "Files/IOError.h"
+#include "Files/InputFile.h"
+#include "Files/MemoryLimits.h"
+#include "InMemory/TriangulateTable.h"
+#include "Parallel/Poll.h"
+#include "Points/ReadPoints.h"
+#include "Predicates/SensibleRange.h"
+#include "Raster/RasterValues.h"
+#include "Refinement/HolePoints.h"
+#include "Refinement/MeshPoints.h"
+#include "Refinement/NodeOrder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <memory>
+#include <utility>
+
+namespace tipp
+{
+namespace
+{
+
+/// Returns the parts of the constraints between the points, which sizes are measured from.
+std::vector<std::array<Point2, 2>> shorelineOf(
+  const PointTable& points, const SourceConstraints& source)
+{
+  std::vector<std::array<Point2, 2>> lines;
+  const auto at = [&points](PointId id) {
+    return Point2{ points.XY[2 * std::size_t(id)], points.XY[2 * std::size_t(id) + 1] };
+  };
+  for (const Constraint& constraint : source.Constraints)
+  {
+    lines.push_back({ at(constraint.A), at(constraint.B) });
+  }
+  return lines;
+}
+
+/// The box in which sizes are needed: that of the lines or, of a convex hull, also of the points.
+Box2 domainOf(const MeshArguments& arguments, const PointTable& points,
+  const std::vector<std::array<Point2, 2>>& lines)
+{
+  Box2 box = Box2::empty();
+  for (const auto& [a, b] : lines)
+  {
+    box.extend(a);
+    box.extend(b);
+  }
+  for (std::size_t i = 0; arguments.Convex && i < points.size(); ++i)
+  {
+    box.extend(Point2{ points.XY[2 * i], points.XY[2 * i + 1] });
+  }
+  return box;
+}
+
+/// Throws IOError if the file of regions cannot be read.
+RefinementOptions refinementOptions(const MeshArguments& arguments)
+{
+  RefinementOptions options;
+  options.MinimumAngle = arguments.MinimumAngle;
+  if (arguments.LargestArea > 0)
+  {
+    options.LargestArea = arguments.LargestArea;
+  }
+  options.ShortestEdge = arguments.ShortestEdge;
+  options.MostPoints = arguments.MostPoints;
+  options.KeepsBorder = arguments.KeepBorder;
+  options.KeepsSegments = arguments.KeepSegments;
+  for (const auto& [x, y, area] : arguments.Regions)
+  {
+    options.Regions.push_back({ { x, y }, area });
+  }
+  if (!arguments.RegionFile.empty())
+  {
+    for (const RegionLimit& region : readRegions(arguments.RegionFile))
+    {
+      options.Regions.push_back({ region.Seed, region.LargestArea });
+    }
+  }
+  options.Threads = arguments.Threads;
+  return options;
+}
+
+/// Appends the first `count` of the points that the mesh has beyond those of the table, with
+/// interpolated columns.
+void appendPoints(const PointsMesh& mesh, std::size_t count, PointTable& points)
+{
+  points.XY.insert(points.XY.end(), mesh.NewXY.begin(), mesh.NewXY.begin() + 2 * count);
+  for (PointTable::Column& column : points.Columns)
+  {
+    for (const PointBlend& blend : mesh.Blends)
+    {
+      column.Values.push_back(
+        blend.valueOf([&column](PointId id) { return column.Values[std::size_t(id)]; }));
+    }
+  }
+}
+
+/// Of the first rows of a table, keeps those whose number is not negative, and all others.
+void keepRows(const std::vector<std::int64_t>& numbers, PointTable& points)
+{
+  std::size_t end = 0;
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    if (i >= numbers.size() || numbers[i] >= 0)
+    {
+      points.XY[2 * end] = points.XY[2 * i];
+      points.XY[2 * end + 1] = points.XY[2 * i + 1];
+      for (PointTable::Column& column : points.Columns)
+      {
+        column.Values[end] = column.Values[i];
+      }
+      ++end;
+    }
+  }
+  points.XY.resize(2 * end);
+  for (PointTable::Column& column : points.Columns)
+  {
+    column.Values.resize(end);
+  }
+}
+
+/// Renumbers the ends of segments: point i becomes numberOf(i).
+template <typename NumberOf>
+void renumberSegments(const NumberOf& numberOf, MadeMesh& made)
+{
+  for (auto& segment : made.Segments)
+  {
+    segment = { numberOf(segment[0]), numberOf(segment[1]) };
+  }
+}
+
+/// Calls work(begin, end) for slices of the ids of triangles, which may be larger than memory.
+template <typename Ids, typename Work>
+void forSlices(Ids& ids, const Work& work)
+{
+  constexpr std::size_t slice = 3 << 16;
+  for (std::size_t first = 0; first < ids.size(); first += slice)
+  {
+    work(ids.data() + first, ids.data() + std::min(ids.size(), first + slice));
+    keepMemoryLimits();
+  }
+}
+
+/// Removes points that are in no triangle, which models do not accept. They are among those given
+/// to the refinement, since it uses all points that it adds. Returns how many.
+std::int64_t removeUnused(const std::vector<char>& isUsed, MadeMesh& made)
+{
+  const std::size_t count = isUsed.size();
+  std::vector<std::int64_t> numbers(count);
+  std::int64_t used = 0;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    numbers[i] = isUsed[i] ? used++ : -1;
+  }
+  const std::int64_t left = std::int64_t(count) - used;
+  if (left > 0)
+  {
+    const auto numberOf = [&](std::int64_t id)
+    { return std::size_t(id) < count ? numbers[std::size_t(id)] : id - left; };
+    keepRows(numbers, made.Points);
+    forSlices(made.Triangles,
+      [&](std::int32_t* begin, const std::int32_t* end)
+      {
+        for (std::int32_t* id = begin; id != end; ++id)
+        {
+          *id = std::int32_t(numberOf(*id));
+        }
+      });
+    renumberSegments(numberOf, made);
+  }
+  return left;
+}
+
+TrianglesView viewOf(const MadeMesh& made)
+{
+  return TrianglesView(made.Triangles.data(), made.Triangles.size() / 3);
+}
+
+/// The bandwidth of a mesh that may be larger than memory.
+std::int64_t bandwidthOf(const MadeMesh& made)
+{
+  std::int64_t bandwidth = 0;
+  forSlices(made.Triangles,
+    [&](const std::int32_t* begin, const std::int32_t* end)
+    {
+      bandwidth =
+        std::max(bandwidth, bandwidthOf(TrianglesView(begin, std::size_t(end - begin) / 3)));
+    });
+  return bandwidth;
+}
+
+/// Renumbers the nodes if that makes the bandwidth smaller.
+void orderNodes(MadeMesh& made)
+{
+  const std::vector<std::int64_t> order = reverseCuthillMcKee(made.Points.size(), viewOf(made));
+  const std::int64_t after = bandwidthOf(viewOf(made), order);
+  if (after < made.Bandwidth)
+  {
+    made.Bandwidth = after;
+    applyNodeOrder(order, made.Points, made.Triangles);
+    const std::vector<std::int64_t> numbers = inverseOrder(order);
+    renumberSegments([&](std::int64_t id) { return numbers[std::size_t(id)]; }, made);
+  }
+}
+
+/// Reports nodes without a depth: VTK's files keep NaN, but models do not run with it. Throws
+/// IOError if the output cannot have such nodes, or if there are no others.
+void checkDepths(const MeshArguments& arguments, const MadeMesh& made)
+{
+  const std::string& path = arguments.Sizes.Depth;
+  const std::int64_t missing = made.Depths->Missing;
+  if (missing == 0)
+  {
+    return;
+  }
+  if (missing == std::int64_t(made.Points.size()))
+  {
+    throw IOError(path,
+      "has no depth at any node; give a file of the same place, in the same reference system.");
+  }
+  if (arguments.OutputIs != Opener::Vtk)
+  {
+    throw IOError(path,
+      fmt::format("has no depths in the parts of the mesh of {}; give a file that covers them, or "
+                  "write .vtu, which stores NaN.",
+        counted(missing, "node", "nodes")));
+  }
+  fmt::print(stderr,
+    "tipp: warning: {} the depth NaN, because {} has no depths in their parts of the mesh.\n",
+    counted(missing, "node has", "nodes have"), path);
+}
+
+/// Throws IOError unless points with depths have the column.
+void requireColumn(
+  const std::string& path, const std::vector<std::string>& names, const std::string& column)
+{
+  if (std::find(names.begin(), names.end(), column) == names.end())
+  {
+    throw IOError(path,
+      fmt::format("has no column '{}'{}; name one by --depth-column, or give --positive-up for "
+                  "elevations in z.",
+        column, listOfNames({ names.begin(), names.end() }, "; there are ")));
+  }
+}
+
+/// Sets the column depth of the nodes. Throws IOError.
+void addDepths(const MeshArguments& arguments, MadeMesh& made)
+{
+  const std::string& path = arguments.Sizes.Depth;
+  const std::optional<Box2>& bounds = arguments.Sizes.RasterBounds;
+  NodeDepthOptions options;
+  options.Axis = arguments.Sizes.DepthIsElevation ? VerticalAxis::Elevations : VerticalAxis::Depths;
+  options.Threads = arguments.Threads;
+  if (arguments.depthsAreRaster())
+  {
+    const auto raster =
+      isOpenedBy(path, Opener::Npy) ? openNpyRaster(path, *bounds) : openRasterValues(path);
+    made.Depths = depthsFromRaster(made.Points.XY, viewOf(made), *raster,
+      arguments.DepthsAtNodes ? NodeRule::AtNode : NodeRule::CellMean, options);
+  }
+  else
+  {
+    const auto points = openPointStream({ path }, {});
+    const std::string column = !arguments.Sizes.DepthColumn.empty() ? arguments.Sizes.DepthColumn
+      : arguments.Sizes.DepthIsElevation                            ? "z"
+                                                                    : "depth";
+    requireColumn(path, points->columns(), column);
+    made.Depths = depthsFromPoints(made.Points.XY, viewOf(made), *points, column, options);
+  }
+  checkDepths(arguments, made);
+  auto& columns = made.Points.Columns;
+  columns.erase(std::remove_if(columns.begin(), columns.end(),
+                  [](const PointTable::Column& column) { return column.Name == "depth"; }),
+    columns.end());
+  columns.push_back({ "depth", made.Depths->Values });
+}
+
+/// The closed lines of a boundary, without repeated corners. Its edges may come in any order and
+/// direction, as at each place, compared by x and y, an even number of them ends.
+std::vector<std::vector<Point2>> ringsOf(const ConstraintTable& table)
+{
+  using Place = std::pair<double, double>;
+  const auto placeOf = [&table](std::int64_t id) {
+    return Place{ table.XY[2 * std::size_t(id)], table.XY[2 * std::size_t(id) + 1] };
+  };
+  std::map<Place, std::vector<std::size_t>> edgesAt;
+  for (std::size_t edge = 0; edge < table.Edges.size(); ++edge)
+  {
+    edgesAt[placeOf(table.Edges[edge][0])].push_back(edge);
+    edgesAt[placeOf(table.Edges[edge][1])].push_back(edge);
+  }
+  std::vector<bool> isUsed(table.Edges.size(), false);
+  const auto takeEdge = [&](const Place& at)
+  {
+    std::vector<std::size_t>& edges = edgesAt[at];
+    while (!edges.empty() && isUsed[edges.back()])
+    {
+      edges.pop_back();
+    }
+    return edges.empty() ? table.Edges.size() : edges.back();
+  };
+  std::vector<std::vector<Point2>> rings;
+  for (const auto& first : table.Edges)
+  {
+    std::vector<Point2> ring;
+    Place at = placeOf(first[0]);
+    for (std::size_t edge = takeEdge(at); edge < table.Edges.size(); edge = takeEdge(at))
+    {
+      isUsed[edge] = true;
+      ring.push_back({ at.first, at.second });
+      const Place end = placeOf(table.Edges[edge][0]);
+      at = end == at ? placeOf(table.Edges[edge][1]) : end;
+    }
+    if (!ring.empty())
+    {
+      rings.push_back(std::move(ring));
+    }
+  }
+  return rings;
+}
+
+/// Returns which nodes may be on an open boundary. Throws IOError.
+OpenNodes openNodesOf(const MeshArguments& arguments, const MadeMesh& made)
+{
+  if (arguments.OpenDepth)
+  {
+    return nodesDeeperThan(made.Depths->Values, *arguments.OpenDepth);
+  }
+  if (arguments.OpenPolygon.empty())
+  {
+    return [](std::int64_t) { return false; };
+  }
+  return nodesInside(made.Points.XY, ringsOf(readBoundary(arguments.OpenPolygon)));
+}
+
+void findBoundaries(const MeshArguments& arguments, MadeMesh& made)
+{
+  const LandKinds ofSchism{ 0, 1 };
+  made.Boundaries = findModelBoundaries(made.Points.XY, viewOf(made), openNodesOf(arguments, made),
+    extensionOf(arguments.Output) == ".gr3" ? ofSchism : LandKinds());
+  if (arguments.isOpen() && made.Boundaries.Lists.Open.empty())
+  {
+    fmt::print(stderr,
+      "tipp: warning: there is no open boundary, because no two neighbouring nodes of the border "
+      "are {}.\n",
+      arguments.OpenDepth ? "deeper than --open-deeper" : "in the polygons of --open");
+  }
+  if (made.Boundaries.TouchingNodes > 0)
+  {
+    fmt::print(stderr,
+      "tipp: warning: the border of the mesh touches itself at {}, with which ADCIRC and SCHISM do "
+      "not run.\n",
+      counted(made.Boundaries.TouchingNodes, "node", "nodes"));
+  }
+  if (made.Boundaries.LoneOpenNodes > 0)
+  {
+    fmt::print(stderr,
+      "tipp: warning: {} no open neighbour on the border, and so become mainland.\n",
+      counted(made.Boundaries.LoneOpenNodes, "node of the open boundary has",
+        "nodes of the open boundary have"));
+  }
+}
+
+/// Reads the input. Throws IOError.
+PointTable readInput(const MeshArguments& arguments, SourceConstraints& source)
+{
+  PointTable points;
+  if (!arguments.Points.empty())
+  {
+    PointOptions options;
+    options.Threads = arguments.Threads;
+    points = readPoints(arguments.Points, options);
+    reportRead(points.Figures);
+    reportTables(points.Reports);
+  }
+  TableConstraints constraints = readConstraints(arguments.Constraints);
+  if (arguments.Points.empty() && !constraints.Lines.Height.empty())
+  {
+    points.Columns.push_back({ "z", {} });
+  }
+  source = joinTable(points, constraints, arguments.Threads);
+  return points;
+}
+
+/// Makes the size function. Throws IOError and std::invalid_argument.
+SizeFunction makeSizes(const MeshArguments& arguments, const PointTable& points,
+  const SourceConstraints& source, const Report& progress)
+{
+  const std::vector<std::array<Point2, 2>> lines = shorelineOf(points, source);
+  SizeArguments sizes = arguments.Sizes;
+  if (!arguments.sizesNeedDepths())
+  {
+    // The file is for the depths of nodes only.
+    sizes.Depth.clear();
+    sizes.DepthColumn.clear();
+    sizes.DepthIsElevation = false;
+  }
+  return makeSizeFunction(
+    sizes, lines, domainOf(arguments, points, lines), arguments.Threads, progress);
+}
+
+/// Throws IOError if the input has columns, which need the mesh in memory.
+void requireNoColumns(const MeshArguments& arguments, const PointTable& points)
+{
+  if (!points.Columns.empty())
+  {
+    const std::string& path =
+      arguments.Points.empty() ? arguments.Constraints.name() : arguments.Points.front();
+    throw IOError(path,
+      "has the column '" + points.Columns.front().Name +
+        "', which --memory cannot interpolate; leave out --memory, or the column.");
+  }
+}
+
+/// Takes the nodes, triangles and segments over from a mesh.
+void takeMesh(const MeshArguments& arguments, PointsMesh&& mesh, MadeMesh& made)
+{
+  const bool isPaged = !arguments.Memory.empty();
+  const std::size_t inTable = isPaged ? std::size_t(mesh.Crossings) : mesh.NewXY.size() / 2;
+  appendPoints(mesh, inTable, made.Points);
+  if (isPaged)
+  {
+    made.NewXY = std::move(mesh.NewXY);
+    made.InTable = inTable;
+  }
+  made.Triangles = std::move(mesh.Mesh.Triangles);
+  made.Regions.assign(mesh.Mesh.RegionOf.begin(), mesh.Mesh.RegionOf.end());
+  for (const IdSegment& segment : mesh.Mesh.Segments)
+  {
+    made.Segments.push_back({ segment.A, segment.B });
+  }
+  made.Refined = std::move(mesh.Mesh);
+  made.LeftOut = removeUnused(made.Refined.IsUsed, made);
+}
+
+/// Returns a point in each hole, with which the segments of Triangle's .poly file enclose the mesh.
+std::vector<Point2> holesOf(const MadeMesh& made)
+{
+  const HolePoints holes = findHolePoints(made.nodes(), viewOf(made), made.Segments);
+  if (holes.TooThin > 0)
+  {
+    fmt::print(stderr,
+      "tipp: warning: {} too thin for a point, so the .poly file fills what it leaves out.\n",
+      counted(holes.TooThin, "hole is", "holes are"));
+  }
+  return holes.Points;
+}
+
+} // namespace
+
+bool makeMesh(const MeshArguments& arguments, PagedMemory* memory, MadeMesh& made)
+{
+  SourceConstraints source;
+  made.Points = readInput(arguments, source);
+  made.GivenPoints = std::int64_t(made.Points.size());
+  if (memory)
+  {
+    requireNoColumns(arguments, made.Points);
+  }
+  const auto bar = std::make_unique<ProgressBar>("Meshing");
+  MeshRequest request;
+  request.Source = &source;
+  request.Crossings = arguments.Constraints.Crossings;
+  request.IsConvex = arguments.Convex;
+  request.HasValues = !made.Points.Columns.empty();
+  request.Refinement = refinementOptions(arguments);
+  request.SmoothingRounds = arguments.SmoothingRounds;
+  request.Refinement.Memory = memory;
+  const Report progress = progressOn(bar);
+  request.Refinement.Progress = progress;
+  std::optional<SizeFunction> sizes;
+  if (arguments.hasSizes())
+  {
+    constexpr double share = 0.3;
+    sizes = makeSizes(arguments, made.Points, source, partOf(progress, 0, share));
+    const auto areaFor = [](double size) { return std::sqrt(3.0) / 4 * size * size; };
+    request.Refinement.AreaAt = [&sizes, areaFor](Point2 centroid, double radius)
+    { return areaFor(sizes->forTriangle(centroid, radius)); };
+    request.Refinement.LeastArea = areaFor(sizes->least());
+    request.Refinement.Progress = partOf(progress, share, 1);
+  }
+  std::vector<std::string> warnings;
+  PointsMesh mesh =
+    meshPoints(PointsView(made.Points.XY.data(), made.Points.size(), 2), request, warnings);
+  if (mesh.Aborted)
+  {
+    return false;
+  }
+  if (mesh.Mesh.triangleCount() == 0)
+  {
+    throw IOError(arguments.Constraints.name(),
+      "leaves nothing to mesh, so no file is written; close its lines or polygons, give --convex, "
+      "or move the points of holes off the segments.");
+  }
+  printWarnings(warnings);
+  takeMesh(arguments, std::move(mesh), made);
+  return true;
+}
+
+void completeMesh(const MeshArguments& arguments, MadeMesh& made)
+{
+  made.Bandwidth = bandwidthOf(made);
+  if (!arguments.KeepOrder)
+  {
+    orderNodes(made);
+  }
+  if (!arguments.Sizes.Depth.empty())
+  {
+    addDepths(arguments, made);
+  }
+  if (arguments.hasBoundaryLists())
+  {
+    findBoundaries(arguments, made);
+  }
+}
+
+bool writeMade(const MeshArguments& arguments, const MadeMesh& made, const PathState& before)
+{
+  MeshOptions options;
+  options.Before = before;
+  options.Aborted = isInterrupted;
+  options.Regions = made.Regions;
+  options.Boundaries = made.Boundaries.Lists;
+  options.Segments = made.Segments;
+  options.Crs = arguments.Sizes.Geographic ? "EPSG:4326" : "";
+  if (arguments.OutputIs == Opener::Triangle)
+  {
+    options.Holes = holesOf(made);
+  }
+  return writeMesh(arguments.Output, made.nodes(), viewOf(made), options);
+}
+
+} // namespace tipp
