@@ -52,7 +52,7 @@ environment oldest 'numpy<2'
 runs oldest Testing/Wheel/TestWithoutVtk.py Testing/Wheel/TestConstraintsWithoutVtk.py
 environment scipy numpy scipy scikit-learn
 runs scipy Testing/Wheel/TestScipyHabits.py Testing/Wheel/TestBesideOpenMP.py
-environment tool numpy rasterio pyproj scipy laspy lazrs netCDF4
+environment tool numpy rasterio pyproj scipy laspy lazrs netCDF4 h5netcdf h5py
 runs_tool tool Testing/Wheel/TestTool.py Testing/Wheel/TestNetcdf.py Testing/Python/TestDemFiles.py Testing/Python/TestLasWriting.py
 environment pyvista 'vtk>=9.7,<9.8' pyvista shapely geopandas laspy meshio polars rioxarray mypy pyright
 runs pyvista Testing/Wheel/TestPyVista.py Testing/Wheel/TestFilters.py Testing/Python/TestArguments.py Testing/Python/TestArrays.py \

@@ -11,13 +11,16 @@ _NAMES = {"i": "Int", "u": "UInt", "f": "Float"}
 _MOST_NUMBERS = 1 << 16  # of an attribute; no convention has longer ones
 _open: list[tuple[Any, str, tuple[int, ...]]] = []  # variables of the open file, their types and shapes
 
+_kept: list[Any] = []  # the open file, which h5netcdf closes if nothing refers to it
+
 Attributes = list[tuple[str, str, list[float], bool]]
 
 
 def missing_package() -> str:
     """Returns what to install; "" if files can be read."""
-    if any(importlib.util.find_spec(name) for name in ("netCDF4", "h5netcdf")):
-        return ""
+    for packages in (("netCDF4",), ("h5netcdf", "h5py")):
+        if all(importlib.util.find_spec(name) for name in packages):
+            return ""
     return "is a NetCDF file, which needs a package of Python that reads it: pip install netCDF4."
 
 
@@ -41,6 +44,7 @@ def _by_netcdf4(path: str) -> Any:
     file = netCDF4.Dataset(path)
     file.set_auto_maskandscale(False)
     file.set_auto_chartostring(False)
+    _kept.append(file)
     variables = [(name, v, _kind_of(v.dtype), v.dimensions, [_attribute(key, v.getncattr(key)) for key in v.ncattrs()])
                  for name, v in file.variables.items()]
     return ([(name, len(dimension)) for name, dimension in file.dimensions.items()], variables,
@@ -54,6 +58,7 @@ def _by_h5netcdf(path: str) -> Any:
         file = h5netcdf.File(path, "r", decode_vlen_strings=True)
     except OSError as error:
         raise RuntimeError(f"{error} (h5netcdf reads NetCDF 4 alone; netCDF4 also reads older files)") from None
+    _kept.append(file)
     variables = [(name, v, _kind_of(v.dtype), v.dimensions, [_attribute(key, value) for key, value in v.attrs.items()])
                  for name, v in file.variables.items()]
     return ([(name, dimension.size) for name, dimension in file.dimensions.items()], variables,

@@ -17,7 +17,8 @@ import numpy as np
 TIPP = os.path.abspath(sys.argv.pop(1))
 CXX = os.environ.get("TIPP_CXX")
 HAS_NETCDF4 = importlib.util.find_spec("netCDF4") is not None
-HAS_ANY = HAS_NETCDF4 or importlib.util.find_spec("h5netcdf") is not None
+HAS_H5NETCDF = all(importlib.util.find_spec(name) for name in ("h5netcdf", "h5py"))
+HAS_ANY = HAS_NETCDF4 or HAS_H5NETCDF
 SHARED = pathlib.Path(__file__).resolve().parents[2].parent / "shared" / "data" / "netcdf"
 
 
@@ -81,6 +82,17 @@ class Netcdf(unittest.TestCase):
             write_ugrid(self.folder / "a.nc", form)
             self.run_tipp("resample", "a.nc", "-o", "b.npy", "--arrays", "zeta", "--step", 2, "--dims", 3, 3)
             np.testing.assert_allclose(np.load(self.folder / "b.npy"), 10 + 0.5 * np.arange(18.0, 27).reshape(3, 3), err_msg=form)
+
+    @unittest.skipUnless(HAS_NETCDF4 and HAS_H5NETCDF, "netCDF4, h5netcdf or h5py is not installed")
+    def test_h5netcdf_reads_the_same(self):
+        write_ugrid(self.folder / "a.nc")
+        words = ["resample", "a.nc", "-o", "b.npy", "--arrays", "zeta", "--step", 1, "--dims", 9, 9]
+        self.run_tipp(*words)
+        expected = (self.folder / "b.npy").read_bytes()
+        (self.folder / "b.npy").unlink()
+        code = "import sys; sys.modules['netCDF4'] = None; from tipp.__main__ import main; sys.exit(main())"
+        subprocess.run([sys.executable, "-c", code, *map(str, words)], cwd=self.folder, check=True, capture_output=True)
+        self.assertEqual((self.folder / "b.npy").read_bytes(), expected)
 
     @unittest.skipUnless(HAS_NETCDF4, "netCDF4 is not installed")
     def test_damaged_files_are_refused_with_one_sentence(self):
