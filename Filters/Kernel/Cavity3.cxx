@@ -32,6 +32,33 @@ template <int A, int B, int C, int D>
     __builtin_shufflevector(p.lift, p.lift, A, B, C, D) };
 }
 
+/// The differences of four points from another one.
+struct Differences
+{
+  Quad x;
+  Quad y;
+  Quad z;
+};
+
+/// Returns the differences of points[v[0..3]] from p. Reads the number behind each point, too.
+[[gnu::always_inline]] inline Differences differences(
+  const Point3* points, const Index* v, const Point3& p)
+{
+  using InMemory = double __attribute__((vector_size(32), aligned(8), may_alias));
+  const Quad from = { p.x, p.y, p.z, 0 };
+  const Quad a = *reinterpret_cast<const InMemory*>(points + v[0]) - from;
+  const Quad b = *reinterpret_cast<const InMemory*>(points + v[1]) - from;
+  const Quad c = *reinterpret_cast<const InMemory*>(points + v[2]) - from;
+  const Quad d = *reinterpret_cast<const InMemory*>(points + v[3]) - from;
+  const Quad xzOfAB = __builtin_shufflevector(a, b, 0, 4, 2, 6);
+  const Quad xzOfCD = __builtin_shufflevector(c, d, 0, 4, 2, 6);
+  const Quad yOfAB = __builtin_shufflevector(a, b, 1, 5, 3, 7);
+  const Quad yOfCD = __builtin_shufflevector(c, d, 1, 5, 3, 7);
+  return { __builtin_shufflevector(xzOfAB, xzOfCD, 0, 1, 4, 5),
+    __builtin_shufflevector(yOfAB, yOfCD, 0, 1, 4, 5),
+    __builtin_shufflevector(xzOfAB, xzOfCD, 2, 3, 6, 7) };
+}
+
 /// Returns a bit for each lane of the mask: lane i sets bit i.
 inline unsigned bitsOfLanes(const QuadMask& mask)
 {
@@ -63,10 +90,7 @@ void Cavity3::extend(const Point3* points, std::size_t count)
 // rounding, the product of sizes is at least the permanent in the error bound of orientation3().
 inline unsigned Cavity3::facetsBefore(const Index* v, const Point3& p, unsigned& inside) const
 {
-  const Point3* const at = this->Points;
-  const Quad x = Quad{ at[v[0]].x, at[v[1]].x, at[v[2]].x, at[v[3]].x } - p.x;
-  const Quad y = Quad{ at[v[0]].y, at[v[1]].y, at[v[2]].y, at[v[3]].y } - p.y;
-  const Quad z = Quad{ at[v[0]].z, at[v[1]].z, at[v[2]].z, at[v[3]].z } - p.z;
+  const auto [x, y, z] = differences(this->Points, v, p);
   const Quad size = (x < 0 ? -x : x) + (y < 0 ? -y : y) + (z < 0 ? -z : z);
   const QuadPoint corners = { x, y, z, size };
   const auto [ax, ay, az, aSize] = permuted<1, 0, 0, 0>(corners);
@@ -138,47 +162,28 @@ inline Cavity3::Location Cavity3::locate(const TetrahedronMesh& mesh, const Poin
   return { NoCell, 0, {} };
 }
 
-/// Tests p against the spheres of the four neighbours of a finite tetrahedron, in one vector. Bit i
-/// of the result: p is certainly inside the sphere of neighbour i. Bit i of `certain`: the sign is
-/// certain. Both bits are 0 for a neighbour at infinity.
+/// Tests p against the spheres of the four neighbours of a tetrahedron, in one vector. Both masks
+/// of the result are 0 for a neighbour at infinity, and for all neighbours of an infinite
+/// tetrahedron: the coordinates of vertex 0 are NaN.
 //
 // With the neighbour's apex e, and a, b, c from FacetCorners, orientation3(e, a, b, c) is negative,
 // and so is the determinant of inSphereValue() if p is inside.
-inline unsigned Cavity3::conflictsAcross(
-  const Index* slots, Index cell, const Links& across, const Point3& p, unsigned& certain)
+inline void Cavity3::testNeighbours(const Index* slots, const Point3& p, TestedCell& tested) const
 {
-  const Index* const v = slots + cell;
-  const Point3* const points = this->Points;
-  const Point3& v0 = points[v[0]];
-  const Point3& v1 = points[v[1]];
-  const Point3& v2 = points[v[2]];
-  const Point3& v3 = points[v[3]];
+  const Links& across = tested.Across;
   const Index apexes[4] = { slots[across[0]], slots[across[1]], slots[across[2]],
     slots[across[3]] };
-  const Point3& e0 = points[apexes[0]];
-  const Point3& e1 = points[apexes[1]];
-  const Point3& e2 = points[apexes[2]];
-  const Point3& e3 = points[apexes[3]];
-  const Quad x = Quad{ v0.x, v1.x, v2.x, v3.x } - p.x;
-  const Quad y = Quad{ v0.y, v1.y, v2.y, v3.y } - p.y;
-  const Quad z = Quad{ v0.z, v1.z, v2.z, v3.z } - p.z;
-  const Quad ex = Quad{ e0.x, e1.x, e2.x, e3.x } - p.x;
-  const Quad ey = Quad{ e0.y, e1.y, e2.y, e3.y } - p.y;
-  const Quad ez = Quad{ e0.z, e1.z, e2.z, e3.z } - p.z;
-  const Quad lift = x * x + y * y + z * z;
-  const QuadPoint corners = { x, y, z, lift };
+  const auto [x, y, z] = differences(this->Points, slots + tested.Cell, p);
+  const auto [ex, ey, ez] = differences(this->Points, apexes, p);
+  const QuadPoint corners = { x, y, z, x * x + y * y + z * z };
   const QuadPoint e = { ex, ey, ez, ex * ex + ey * ey + ez * ez };
   const auto [determinant, lifts] = inSphereValue(
     e, permuted<1, 0, 0, 0>(corners), permuted<2, 3, 1, 2>(corners), permuted<3, 2, 3, 1>(corners));
   // The same error bound as in isCertain().
   const Quad square = lifts * lifts;
   const Quad bound = (9 * 0x1p-106) * (square * square) * lifts + 1e-280;
-  certain = bitsOfLanes(determinant * determinant > bound);
-  for (unsigned i = 0; i < 4; ++i)
-  {
-    certain &= ~(unsigned(apexes[i] == 0) << i);
-  }
-  return certain & bitsOfLanes(determinant < 0);
+  tested.Certain = bitsOfLanes(determinant * determinant > bound);
+  tested.Inside = tested.Certain & bitsOfLanes(determinant < 0);
 }
 
 /// Reads the links of a claimed tetrahedron. Returns false if another thread claims or has just
@@ -219,7 +224,9 @@ inline bool Cavity3::claimFirst(TetrahedronMesh& mesh, const Point3& p, const Lo
   {
     return false;
   }
-  this->Removed.push_back(at.Cell);
+  this->Removed.makeRoom(1);
+  *this->Removed.end() = at.Cell;
+  this->Removed.setEnd(this->Removed.end() + 1);
   if (!Access::IsShared)
   {
     return true;
@@ -255,53 +262,120 @@ template <typename Access>
   return areStable;
 }
 
-/// Finds the tetrahedra in conflict with p (the cavity), starting from the claimed one, and the
-/// cavity's boundary. Returns false if another thread is at work there.
+/// Tests the neighbours of Removed[k]. Returns false if another thread is at work there.
 template <typename Access>
-inline bool Cavity3::findConflicts(TetrahedronMesh& mesh, const Point3& p)
+inline bool Cavity3::testCell(
+  const TetrahedronMesh& mesh, std::size_t k, const Point3& p, TestedCell& tested) const
 {
   const Index* const slots = mesh.slots();
-  std::uint8_t* const marks = mesh.marks();
-  const std::uint8_t own = this->Claim;
-  for (std::size_t k = 0; k < this->Removed.size(); ++k)
+  tested.Cell = this->Removed[k];
+  if (!this->readLinks<Access>(mesh, tested.Cell, tested.Across))
   {
-    const Index cell = this->Removed[k];
-    Links across;
-    if (!this->readLinks<Access>(mesh, cell, across))
+    return false;
+  }
+  this->testNeighbours(slots, p, tested);
+  // The neighbours of a tetrahedron that will soon be tested.
+  constexpr std::size_t ahead = 4;
+  const Index* const links =
+    slots + this->Removed[std::min(k + ahead, this->Removed.size() - 1)] + 4;
+  for (Index i = 0; i < 4; ++i)
+  {
+    __builtin_prefetch(slots + TetrahedronMesh::cellOf(Access::load(links[i])));
+  }
+  return true;
+}
+
+/// Tests with exact predicates which of the `uncertain` neighbours are in conflict with p. Returns
+/// false if another thread is at work there.
+template <typename Access>
+[[gnu::noinline]] bool Cavity3::decide(
+  TetrahedronMesh& mesh, unsigned uncertain, const Point3& p, TestedCell& tested)
+{
+  const Index* const slots = mesh.slots();
+  for (Index i = 0; i < 4; ++i)
+  {
+    if ((uncertain >> i & 1) == 0)
+    {
+      continue;
+    }
+    const Index beyond = TetrahedronMesh::cellOf(tested.Across[i]);
+    bool isIn = false;
+    if (slots[beyond] != 0)
+    {
+      isIn = this->Predicates.isInFiniteConflict(slots + beyond, p);
+    }
+    else if (!this->testInfinite<Access>(mesh, beyond, p, isIn))
     {
       return false;
     }
-    unsigned certain = 0;
-    const unsigned inside =
-      slots[cell] != 0 ? this->conflictsAcross(slots, cell, across, p, certain) : 0;
-    for (Index i = 0; i < 4; ++i)
+    tested.Inside |= unsigned(isIn) << i;
+  }
+  return true;
+}
+
+/// Adds the neighbours in conflict to Removed, and the facets of the others to Boundary. Returns
+/// false if another thread is at work there.
+//
+// There is hardly a branch: which neighbours are in conflict cannot be predicted, and while a
+// mispredicted branch is resolved the next tetrahedron is not tested.
+template <typename Access>
+inline bool Cavity3::addTested(TetrahedronMesh& mesh, const Point3& p, TestedCell& tested)
+{
+  std::uint8_t* const marks = mesh.marks();
+  const std::uint8_t own = this->Claim;
+  unsigned isOpen = 0;
+  for (Index i = 0; i < 4; ++i)
+  {
+    isOpen |= unsigned(Access::markOf(marks[tested.Across[i] / 8]) != own) << i;
+  }
+  const unsigned uncertain = isOpen & ~tested.Certain;
+  if (__builtin_expect(uncertain != 0, 0) && !this->decide<Access>(mesh, uncertain, p, tested))
+  {
+    return false;
+  }
+  const unsigned in = isOpen & tested.Inside;
+  const unsigned out = isOpen & ~tested.Inside;
+  this->Removed.makeRoom(4);
+  this->Boundary.makeRoom(4);
+  Index* removed = this->Removed.end();
+  CavityFacet3* boundary = this->Boundary.end();
+  bool areClaimed = true;
+  for (Index i = 0; i < 4; ++i)
+  {
+    const Index across = tested.Across[i];
+    const bool isIn = (in >> i & 1) != 0;
+    areClaimed = areClaimed && Access::claimIf(isIn, marks[across / 8], own);
+    *boundary = { tested.Cell + i, across };
+    boundary += out >> i & 1;
+    *removed = TetrahedronMesh::cellOf(across);
+    removed += isIn && areClaimed ? 1 : 0;
+  }
+  this->Removed.setEnd(removed);
+  this->Boundary.setEnd(boundary);
+  return areClaimed;
+}
+
+/// Finds the tetrahedra in conflict with p (the cavity), starting from the claimed one, and the
+/// cavity's boundary. Returns false if another thread is at work there.
+//
+// Two are tested at a time, so that one is computed while the other waits for memory.
+template <typename Access>
+inline bool Cavity3::findConflicts(TetrahedronMesh& mesh, const Point3& p)
+{
+  std::array<TestedCell, 2> tested;
+  for (std::size_t k = 0; k < this->Removed.size();)
+  {
+    const std::size_t count = std::min(this->Removed.size() - k, tested.size());
+    for (std::size_t i = 0; i < count; ++i, ++k)
     {
-      const Index beyond = TetrahedronMesh::cellOf(across[i]);
-      if (Access::markOf(marks[beyond / 8]) == own)
+      if (!this->testCell<Access>(mesh, k, p, tested[i]))
       {
-        continue;
+        return false;
       }
-      bool isIn = (inside >> i & 1) != 0;
-      if (__builtin_expect((certain >> i & 1) == 0, 0))
-      {
-        if (slots[beyond] != 0)
-        {
-          isIn = this->Predicates.isInFiniteConflict(slots + beyond, p);
-        }
-        else if (!this->testInfinite<Access>(mesh, beyond, p, isIn))
-        {
-          return false;
-        }
-      }
-      if (!isIn)
-      {
-        this->Boundary.push_back({ cell + i, across[i], 0 });
-      }
-      else if (Access::claim(marks[beyond / 8], own))
-      {
-        this->Removed.push_back(beyond);
-      }
-      else
+    }
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      if (!this->addTested<Access>(mesh, p, tested[i]))
       {
         return false;
       }
@@ -364,7 +438,8 @@ inline bool Cavity3::takeRoom(TetrahedronMesh& mesh)
 template <typename Access>
 inline void Cavity3::retriangulate(TetrahedronMesh& mesh, Index vertex)
 {
-  this->Filling.fill<Access>(mesh, vertex, this->Boundary, this->Free);
+  const Index* const made = &this->Free.back();
+  this->Filling.fill<Access>(mesh, vertex, this->Boundary, made);
   // The walk to the next vertex must start at a finite tetrahedron. Other threads may already
   // change the new ones, so the removed ones are read.
   std::size_t last = this->Boundary.size() - 1;
@@ -374,7 +449,8 @@ inline void Cavity3::retriangulate(TetrahedronMesh& mesh, Index vertex)
   {
     --last;
   }
-  this->Recent = this->Boundary[last].Made;
+  this->Recent = made[-std::ptrdiff_t(last)];
+  this->Free.resize(this->Free.size() - this->Boundary.size());
   this->setMarks<Access>(mesh, TetrahedronMesh::Free);
   this->Free.insert(this->Free.end(), this->Removed.begin(), this->Removed.end());
 }
@@ -444,7 +520,7 @@ inline bool Cavity3::insertOne(TetrahedronMesh& mesh, Index vertex, std::vector<
 void Cavity3::insert(TetrahedronMesh& mesh, Index first, Index end, std::vector<Coincidence>& found)
 {
   this->Claim = TetrahedronMesh::InConflict;
-  runWith(Instructions::Best,
+  runWithManyRegisters(Instructions::Best,
     [&]
     {
       for (Index vertex = first; vertex < end; ++vertex)
@@ -463,7 +539,7 @@ void Cavity3::share(std::uint8_t thread, std::atomic<std::uint64_t>& end)
 void Cavity3::insertShared(TetrahedronMesh& mesh, const Index* begin, const Index* end,
   std::vector<Index>& left, std::vector<Coincidence>& found)
 {
-  runWith(Instructions::Best,
+  runWithManyRegisters(Instructions::Best,
     [&]
     {
       for (const Index* vertex = begin; vertex != end; ++vertex)

@@ -3,6 +3,7 @@
 #define tippCavity3_h
 
 #include "Kernel/KernelPredicates.h"
+#include "Kernel/OpenList.h"
 #include "Kernel/TetrahedronMesh.h"
 #include "Predicates/Geometry.h"
 
@@ -20,7 +21,6 @@ struct CavityFacet3
 {
   TetrahedronMesh::Index Inside;  ///< of the removed tetrahedron
   TetrahedronMesh::Index Outside; ///< the same facet of the neighbour outside
-  TetrahedronMesh::Index Made;    ///< the new tetrahedron on this facet
 };
 
 /// Fills a cavity with new tetrahedra. `Access` tells whether other threads use the mesh: the
@@ -39,21 +39,27 @@ public:
   /// Sets the number of vertices.
   void extend(std::size_t count) { this->Numbers.resize(count, NoNumber); }
 
-  /// Makes a tetrahedron of `vertex` and each facet of the boundary. Takes their indices from the
-  /// end of `free`, which must suffice.
+  /// Makes a tetrahedron of `vertex` and each facet of the boundary: for facet k, at made[-k].
   template <typename Access>
-  void fill(TetrahedronMesh& mesh, Index vertex, std::vector<CavityFacet3>& boundary,
-    std::vector<Index>& free)
+  void fill(
+    TetrahedronMesh& mesh, Index vertex, const OpenList<CavityFacet3>& boundary, const Index* made)
   {
-    this->makeCells<Access>(mesh, vertex, boundary, free);
-    if (!this->linkByEdges<Access>(mesh, boundary))
+    // A triangulated sphere of n vertices has 2 n - 4 facets.
+    if (boundary.size() <= 2 * MostInTable - 4)
     {
-      this->linkAround<Access>(mesh, boundary);
+      this->makeByEdges<Access>(mesh, vertex, boundary, made);
+    }
+    else
+    {
+      makeCells<Access>(mesh, vertex, boundary, made);
+      linkAround<Access>(mesh, boundary, made);
     }
   }
 
 private:
-  using Facets = std::vector<CavityFacet3>;
+  using Facets = OpenList<CavityFacet3>;
+  /// Of a facet: the indices of its edges in EdgeTable, in the other direction; the last is unused.
+  using Edges = std::array<std::uint16_t, 4>;
 
   /// If the cavity's boundary has at most this many vertices, a table of its edges gives the
   /// neighbours.
@@ -63,102 +69,120 @@ private:
   /// Makes a tetrahedron for each facet of the boundary: a copy of the removed one, whose corner
   /// opposite to the facet is replaced by `vertex`.
   template <typename Access>
-  void makeCells(TetrahedronMesh& mesh, Index vertex, Facets& boundary, std::vector<Index>& free)
+  static void makeCells(
+    TetrahedronMesh& mesh, Index vertex, const Facets& boundary, const Index* made)
   {
     Index* const slots = mesh.slots();
-    const Index* next = free.data() + free.size();
-    for (CavityFacet3& facet : boundary)
+    for (const CavityFacet3& facet : boundary)
     {
+      const Index cell = *made--;
       const Index old = TetrahedronMesh::cellOf(facet.Inside);
       const Index i = facet.Inside & 3;
-      const Index made = *--next;
       for (Index corner = 0; corner < 4; ++corner)
       {
-        Access::store(slots[made + corner], slots[old + corner]);
+        Access::store(slots[cell + corner], slots[old + corner]);
       }
-      Access::store(slots[made + i], vertex);
-      Access::store(slots[made + i + 4], facet.Outside);
-      Access::store(slots[facet.Outside + 4], made + i);
-      facet.Made = made;
+      Access::store(slots[cell + i], vertex);
+      Access::store(slots[cell + i + 4], facet.Outside);
+      Access::store(slots[facet.Outside + 4], cell + i);
     }
-    free.resize(free.size() - boundary.size());
   }
 
-  /// Links new tetrahedra by a table of the boundary's edges: two of them are neighbours if their
-  /// facets share an edge, which they traverse in opposite directions. Returns false if the
-  /// boundary has too many vertices for the table.
+  /// Makes and links tetrahedra by a table of the boundary's edges: two of them are neighbours if
+  /// their facets share an edge, which they traverse in opposite directions. `vertex` becomes their
+  /// last corner, so that all positions but those in the removed tetrahedron are constants. If one
+  /// of the facet's corners is at infinity, FacetCorners has it first.
   template <typename Access>
-  bool linkByEdges(TetrahedronMesh& mesh, const Facets& boundary)
+  void makeByEdges(TetrahedronMesh& mesh, Index vertex, const Facets& boundary, const Index* made)
   {
-    // A triangulated sphere of n vertices has 2 n - 4 facets.
-    if (boundary.size() > 2 * MostInTable - 4)
-    {
-      return false;
-    }
     // Local copies, since a store through a pointer to bytes might change any member.
     Index* const slots = mesh.slots();
-    std::uint8_t* const marks = mesh.marks();
     std::uint8_t* const known = this->Numbers.data();
     Index* const table = this->EdgeTable.data();
-    const CavityFacet3* const facets = boundary.data();
+    const CavityFacet3* const facets = boundary.begin();
     const std::size_t size = boundary.size();
     std::array<Index, MostInTable + 1> vertices;
     unsigned count = 0;
-    std::array<std::array<std::uint16_t, 3>, 2 * MostInTable> edges;
+    std::array<Edges, 2 * MostInTable> edges;
+    const auto numberOf = [&](Index v)
+    {
+      vertices[count] = v;
+      // NoNumber is larger than any number.
+      const unsigned number = std::min<unsigned>(known[v], count);
+      known[v] = static_cast<std::uint8_t>(number);
+      count += number == count ? 1 : 0;
+      return number;
+    };
     for (std::size_t k = 0; k < size; ++k)
     {
-      const Index made = facets[k].Made;
-      const Index* const f = TetrahedronMesh::FacetCorners[facets[k].Inside & 3];
-      std::array<unsigned, 3> numbers;
-      for (std::size_t i = 0; i < 3; ++i)
-      {
-        const Index v = slots[made + f[i]];
-        const bool isNew = known[v] == NoNumber;
-        vertices[count] = v;
-        numbers[i] = isNew ? count : known[v];
-        known[v] = static_cast<std::uint8_t>(numbers[i]);
-        count += isNew ? 1 : 0;
-      }
-      for (std::size_t i = 0; i < 3; ++i)
-      {
-        const unsigned from = numbers[(i + 1) % 3];
-        const unsigned to = numbers[(i + 2) % 3];
-        table[from * MostInTable + to] = made + f[i];
-        edges[k][i] = static_cast<std::uint16_t>(to * MostInTable + from);
-      }
+      const Index inside = facets[k].Inside;
+      const Index outside = facets[k].Outside;
+      const Index* const old = slots + TetrahedronMesh::cellOf(inside);
+      const Index* const f = TetrahedronMesh::FacetCorners[inside & 3];
+      const Index cell = made[-std::ptrdiff_t(k)];
+      const Index a = old[f[0]];
+      const Index b = old[f[2]];
+      const Index c = old[f[1]];
+      Access::store(slots[cell], a);
+      Access::store(slots[cell + 1], b);
+      Access::store(slots[cell + 2], c);
+      Access::store(slots[cell + 3], vertex);
+      Access::store(slots[cell + 7], outside);
+      Access::store(slots[outside + 4], cell + 3);
+      const unsigned i = numberOf(a);
+      const unsigned j = numberOf(b);
+      const unsigned l = numberOf(c);
+      table[j * MostInTable + l] = cell;
+      table[l * MostInTable + i] = cell + 1;
+      table[i * MostInTable + j] = cell + 2;
+      edges[k] = { std::uint16_t(l * MostInTable + j), std::uint16_t(i * MostInTable + l),
+        std::uint16_t(j * MostInTable + i), 0 };
     }
-    for (std::size_t k = 0; k < size; ++k)
-    {
-      const Index made = facets[k].Made;
-      const Index* const f = TetrahedronMesh::FacetCorners[facets[k].Inside & 3];
-      for (std::size_t i = 0; i < 3; ++i)
-      {
-        Access::store(slots[made + f[i] + 4], table[edges[k][i]]);
-      }
-      Access::setMark(marks[made / 8], TetrahedronMesh::Live);
-    }
+    this->linkByEdges<Access>(mesh, made, edges.data(), size);
     for (unsigned i = 0; i < count; ++i)
     {
       known[vertices[i]] = NoNumber;
     }
-    return true;
+  }
+
+  /// Links the new tetrahedra; edges[k]: where the neighbours of made[-k] are in the table.
+  template <typename Access>
+  void linkByEdges(
+    TetrahedronMesh& mesh, const Index* made, const Edges* edges, std::size_t size) const
+  {
+    Index* const slots = mesh.slots();
+    std::uint8_t* const marks = mesh.marks();
+    const Index* const table = this->EdgeTable.data();
+    for (std::size_t k = 0; k < size; ++k)
+    {
+      const Index cell = made[-std::ptrdiff_t(k)];
+      Access::store(slots[cell + 4], table[edges[k][0]]);
+      Access::store(slots[cell + 5], table[edges[k][1]]);
+      Access::store(slots[cell + 6], table[edges[k][2]]);
+      Access::setMark(marks[cell / 8], TetrahedronMesh::Live);
+    }
   }
 
   /// Does the same for any number of vertices: starts at a facet of a new tetrahedron, and goes
   /// around its edge through removed tetrahedra to the neighbour's facet.
   template <typename Access>
-  [[gnu::noinline]] void linkAround(TetrahedronMesh& mesh, const Facets& boundary)
+  [[gnu::noinline]] static void linkAround(
+    TetrahedronMesh& mesh, const Facets& boundary, const Index* made)
   {
     Index* const slots = mesh.slots();
     std::uint8_t* const marks = mesh.marks();
     // Let each removed tetrahedron refer to the new one on its facet.
-    for (const CavityFacet3& facet : boundary)
+    for (std::size_t k = 0; k < boundary.size(); ++k)
     {
-      Access::store(slots[facet.Inside + 4], facet.Made + (facet.Inside & 3));
-      Access::setMark(marks[facet.Made / 8], TetrahedronMesh::New);
+      const CavityFacet3 facet = boundary[k];
+      const Index fresh = made[-std::ptrdiff_t(k)];
+      Access::store(slots[facet.Inside + 4], fresh + (facet.Inside & 3));
+      Access::setMark(marks[fresh / 8], TetrahedronMesh::New);
     }
-    for (const CavityFacet3& facet : boundary)
+    for (std::size_t k = 0; k < boundary.size(); ++k)
     {
+      const CavityFacet3 facet = boundary[k];
+      const Index fresh = made[-std::ptrdiff_t(k)];
       for (Index j = 0; j < 4; ++j)
       {
         if (j == (facet.Inside & 3))
@@ -177,12 +201,12 @@ private:
           after = TetrahedronMesh::positionOf(slots + cell, carried);
           across = slots[cell + after + 4];
         }
-        Access::store(slots[facet.Made + j + 4], TetrahedronMesh::cellOf(across) + before);
+        Access::store(slots[fresh + j + 4], TetrahedronMesh::cellOf(across) + before);
       }
     }
-    for (const CavityFacet3& facet : boundary)
+    for (std::size_t k = 0; k < boundary.size(); ++k)
     {
-      Access::setMark(marks[facet.Made / 8], TetrahedronMesh::Live);
+      Access::setMark(marks[made[-std::ptrdiff_t(k)] / 8], TetrahedronMesh::Live);
     }
   }
 
@@ -207,7 +231,9 @@ public:
     Index Representative;
   };
 
-  /// Prepares for a new mesh. `points` are not copied; `count` includes the vertex at infinity.
+  /// Prepares for a new mesh. `points` are not copied; `count` includes the vertex at infinity,
+  /// whose coordinates must be NaN. The number in memory behind the last point is read, but not
+  /// used.
   void restart(const Point3* points, std::size_t count);
 
   /// Continues with the same mesh and more points: `points` begin with those so far.
@@ -246,6 +272,16 @@ private:
     std::array<Index, 4> Corners; ///< as the walk has seen them
   };
 
+  /// A tetrahedron of the cavity whose neighbours have been tested against the point. Bit i of the
+  /// masks is for neighbour i.
+  struct TestedCell
+  {
+    Index Cell;
+    Links Across;     ///< the facets of the neighbours
+    unsigned Certain; ///< whether Inside is known
+    unsigned Inside;  ///< whether the point is in the neighbour's sphere
+  };
+
   void renewStart(const TetrahedronMesh& mesh);
   template <typename Access>
   bool insertOne(TetrahedronMesh& mesh, Index vertex, std::vector<Coincidence>& found);
@@ -258,6 +294,14 @@ private:
   bool claimFirst(TetrahedronMesh& mesh, const Point3& p, const Location& at);
   template <typename Access>
   bool testInfinite(TetrahedronMesh& mesh, Index cell, const Point3& p, bool& isIn);
+  void testNeighbours(const Index* slots, const Point3& p, TestedCell& tested) const;
+  template <typename Access>
+  bool testCell(
+    const TetrahedronMesh& mesh, std::size_t k, const Point3& p, TestedCell& tested) const;
+  template <typename Access>
+  bool decide(TetrahedronMesh& mesh, unsigned uncertain, const Point3& p, TestedCell& tested);
+  template <typename Access>
+  bool addTested(TetrahedronMesh& mesh, const Point3& p, TestedCell& tested);
   template <typename Access>
   bool findConflicts(TetrahedronMesh& mesh, const Point3& p);
   template <typename Access>
@@ -266,8 +310,6 @@ private:
   void setMarks(TetrahedronMesh& mesh, std::uint8_t mark) const;
   void makeRoom(TetrahedronMesh& mesh);
   bool takeRoom(TetrahedronMesh& mesh);
-  unsigned conflictsAcross(
-    const Index* slots, Index cell, const Links& across, const Point3& p, unsigned& certain);
 
   static constexpr Index NoCell = ~Index(0);
 
@@ -277,8 +319,8 @@ private:
   std::uint8_t Claim = TetrahedronMesh::InConflict; ///< the mark of tetrahedra to be removed
   std::atomic<std::uint64_t>* SharedEnd = nullptr;  ///< see share()
   Index Recent = 0; ///< a finite tetrahedron near the last inserted vertex
-  std::vector<Index> Removed;
-  std::vector<CavityFacet3> Boundary;
+  OpenList<Index> Removed;
+  OpenList<CavityFacet3> Boundary;
   std::vector<Index> Free; ///< unused tetrahedra below the mesh's end
 };
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <stdexcept>
@@ -209,9 +210,11 @@ bool DelaunayKernel3::triangulate(
   this->Mesh.clear();
   this->Duplicates.clear();
   this->Coincidences.clear();
-  this->Points.reserve(1 + count + more);
+  this->Points.reserve(1 + count + more + 1);
   this->Points.resize(1);
-  this->Points[0] = {};
+  // So that no filter of a predicate decides for the vertex at infinity.
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  this->Points[0] = { none, none, none };
   this->PointIndices.reserve(1 + count + more);
   this->PointIndices.resize(1);
   this->append(points, count);
@@ -252,6 +255,7 @@ void DelaunayKernel3::append(const Point3* points, std::size_t count)
     throw std::length_error("too many points for one partition: use more partitions");
   }
   this->Order.compute(points, count);
+  this->Points.reserve(first + count + 1); // Cavity3 reads the number behind each point
   this->Points.resize(first + count);
   this->PointIndices.resize(first + count);
   for (std::size_t k = 0; k < count; ++k)

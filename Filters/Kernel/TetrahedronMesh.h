@@ -105,6 +105,12 @@ struct AloneAccess3
     mark = own;
     return true;
   }
+  /// Claims the tetrahedron if `isIn`, without a branch. Its mark is Live or `own`, InConflict.
+  static bool claimIf(bool isIn, std::uint8_t& mark, std::uint8_t own)
+  {
+    mark = static_cast<std::uint8_t>(mark | (own & (0U - unsigned(isIn))));
+    return true;
+  }
 };
 
 /// Access to a mesh that several threads change. To remove a tetrahedron, a thread first claims it:
@@ -143,6 +149,10 @@ struct SharedAccess3
     std::uint8_t live = TetrahedronMesh::Live;
     return __atomic_compare_exchange_n(
       &mark, &live, own, false, __ATOMIC_SEQ_CST, __ATOMIC_SEQ_CST);
+  }
+  static bool claimIf(bool isIn, std::uint8_t& mark, std::uint8_t own)
+  {
+    return !isIn || claim(mark, own);
   }
 };
 
