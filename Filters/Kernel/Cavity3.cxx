@@ -123,7 +123,7 @@ inline Cavity3::Location Cavity3::locate(const TetrahedronMesh& mesh, const Poin
     const Index* const cell = slots + at.Cell;
     const Index v[4] = { Access::load(cell[0]), Access::load(cell[1]), Access::load(cell[2]),
       Access::load(cell[3]) };
-    if (Access::IsShared)
+    if (Access::IsClaimed)
     {
       std::copy_n(v, 4, at.Corners.begin());
     }
@@ -200,7 +200,7 @@ inline bool Cavity3::readLinks(const TetrahedronMesh& mesh, Index cell, Links& a
     across[i] = Access::load(links[i]);
   }
   bool areStable = true;
-  for (std::size_t i = 0; Access::IsShared && i < 4; ++i)
+  for (std::size_t i = 0; Access::IsClaimed && i < 4; ++i)
   {
     const std::uint8_t mark = Access::markOf(mesh.marks()[across[i] / 8]);
     areStable &= mark == TetrahedronMesh::Live || mark == this->Claim;
@@ -209,8 +209,8 @@ inline bool Cavity3::readLinks(const TetrahedronMesh& mesh, Index cell, Links& a
   return areStable;
 }
 
-/// Claims the tetrahedron where a walk has ended. Returns false if another thread has claimed it,
-/// or if p is not in its circumsphere.
+/// Claims the tetrahedron where a walk has ended. Returns false if it is another thread's, or if p
+/// is not in its circumsphere.
 //
 // The corners are compared too, because the walk has seen that p is at none of them. The sphere is
 // tested because the walk may have entered the tetrahedron from one that is no longer its
@@ -220,6 +220,12 @@ inline bool Cavity3::claimFirst(TetrahedronMesh& mesh, const Point3& p, const Lo
 {
   this->Removed.clear();
   this->Boundary.clear();
+  const Index* const v = mesh.slots() + at.Cell;
+  if (Access::IsInRegion &&
+    !std::all_of(v, v + 4, [&](const Index& corner) { return this->isOwn(Access::load(corner)); }))
+  {
+    return false;
+  }
   if (!Access::claim(mesh.marks()[at.Cell / 8], this->Claim))
   {
     return false;
@@ -231,9 +237,8 @@ inline bool Cavity3::claimFirst(TetrahedronMesh& mesh, const Point3& p, const Lo
   {
     return true;
   }
-  const Index* const v = mesh.slots() + at.Cell;
   const Point3* const points = this->Points;
-  if (!std::equal(v, v + 4, at.Corners.begin()))
+  if (Access::IsClaimed && !std::equal(v, v + 4, at.Corners.begin()))
   {
     return false;
   }
@@ -248,14 +253,14 @@ template <typename Access>
   TetrahedronMesh& mesh, Index cell, const Point3& p, bool& isIn)
 {
   std::uint8_t& mark = mesh.marks()[cell / 8];
-  if (Access::IsShared && !Access::claim(mark, this->Claim))
+  if (Access::IsClaimed && !Access::claim(mark, this->Claim))
   {
     return false;
   }
   Links across;
   const bool areStable = this->readLinks<Access>(mesh, cell, across);
   isIn = areStable && this->Predicates.isInInfiniteConflict(mesh.slots(), cell, p);
-  if (Access::IsShared)
+  if (Access::IsClaimed)
   {
     Access::setMark(mark, TetrahedronMesh::Live);
   }
@@ -273,7 +278,12 @@ inline bool Cavity3::testCell(
   {
     return false;
   }
-  this->testNeighbours(slots, p, tested);
+  tested.Certain = 0;
+  tested.Inside = 0;
+  if (slots[tested.Cell] != 0)
+  {
+    this->testNeighbours(slots, p, tested);
+  }
   // The neighbours of a tetrahedron that will soon be tested.
   constexpr std::size_t ahead = 4;
   const Index* const links =
@@ -288,7 +298,7 @@ inline bool Cavity3::testCell(
 /// Tests with exact predicates which of the `uncertain` neighbours are in conflict with p. Returns
 /// false if another thread is at work there.
 template <typename Access>
-[[gnu::noinline]] bool Cavity3::decide(
+inline bool Cavity3::decide(
   TetrahedronMesh& mesh, unsigned uncertain, const Point3& p, TestedCell& tested)
 {
   const Index* const slots = mesh.slots();
@@ -313,6 +323,23 @@ template <typename Access>
   return true;
 }
 
+/// Whether the neighbours of the mask `in` are in this thread's region. Their corners are, but for
+/// those opposite to the common facets.
+inline bool Cavity3::areInRegion(const Index* slots, unsigned in, const Links& across) const
+{
+  unsigned isOther = 0;
+  for (Index i = 0; i < 4; ++i)
+  {
+    isOther |= unsigned(this->Regions[slots[across[i]]] != this->Region) << i;
+  }
+  bool areOwn = true;
+  for (unsigned rest = in & isOther; rest != 0; rest &= rest - 1)
+  {
+    areOwn &= this->isOwn(slots[across[std::size_t(__builtin_ctz(rest))]]);
+  }
+  return areOwn;
+}
+
 /// Adds the neighbours in conflict to Removed, and the facets of the others to Boundary. Returns
 /// false if another thread is at work there.
 //
@@ -334,6 +361,10 @@ inline bool Cavity3::addTested(TetrahedronMesh& mesh, const Point3& p, TestedCel
     return false;
   }
   const unsigned in = isOpen & tested.Inside;
+  if (Access::IsInRegion && !this->areInRegion(mesh.slots(), in, tested.Across))
+  {
+    return false;
+  }
   const unsigned out = isOpen & ~tested.Inside;
   this->Removed.makeRoom(4);
   this->Boundary.makeRoom(4);
@@ -488,7 +519,7 @@ template <typename Access>
 inline bool Cavity3::insertOne(TetrahedronMesh& mesh, Index vertex, std::vector<Coincidence>& found)
 {
   const Point3& p = this->Points[vertex];
-  if (Access::IsShared)
+  if (Access::IsClaimed)
   {
     this->renewStart(mesh);
   }
@@ -536,7 +567,8 @@ void Cavity3::share(std::uint8_t thread, std::atomic<std::uint64_t>& end)
   this->SharedEnd = &end;
 }
 
-void Cavity3::insertShared(TetrahedronMesh& mesh, const Index* begin, const Index* end,
+template <typename Access>
+void Cavity3::insertEach(TetrahedronMesh& mesh, const Index* begin, const Index* end,
   std::vector<Index>& left, std::vector<Coincidence>& found)
 {
   runWithManyRegisters(Instructions::Best,
@@ -544,12 +576,33 @@ void Cavity3::insertShared(TetrahedronMesh& mesh, const Index* begin, const Inde
     {
       for (const Index* vertex = begin; vertex != end; ++vertex)
       {
-        if (!this->insertOne<SharedAccess3>(mesh, *vertex, found))
+        if (!this->insertOne<Access>(mesh, *vertex, found))
         {
           left.push_back(*vertex);
         }
       }
     });
+}
+
+void Cavity3::insertShared(TetrahedronMesh& mesh, const Index* begin, const Index* end,
+  std::vector<Index>& left, std::vector<Coincidence>& found)
+{
+  this->insertEach<SharedAccess3>(mesh, begin, end, left, found);
+}
+
+void Cavity3::shareRegions(
+  const std::uint8_t* regions, std::uint8_t region, std::atomic<std::uint64_t>& end)
+{
+  this->Claim = TetrahedronMesh::InConflict;
+  this->SharedEnd = &end;
+  this->Regions = regions;
+  this->Region = region;
+}
+
+void Cavity3::insertInRegion(TetrahedronMesh& mesh, const Index* begin, const Index* end,
+  std::vector<Index>& left, std::vector<Coincidence>& found)
+{
+  this->insertEach<RegionAccess3>(mesh, begin, end, left, found);
 }
 
 } // namespace tipp

@@ -253,6 +253,16 @@ public:
   /// Prepares for insertShared(). `thread`: the number of this thread among those that share the
   /// mesh. `end`: of all threads: one past the last tetrahedron, in slots.
   void share(std::uint8_t thread, std::atomic<std::uint64_t>& end);
+  /// Prepares for insertInRegion(). `regions`: the region of each vertex, other than `region` for
+  /// the vertex at infinity.
+  void shareRegions(
+    const std::uint8_t* regions, std::uint8_t region, std::atomic<std::uint64_t>& end);
+  /// Inserts the vertices [begin, end), which are in the region, while other threads insert those
+  /// of other regions. continueAt() must have set a tetrahedron in the region. Appends to `left`
+  /// those that it does not insert, because the cavity is not inside the region or because the mesh
+  /// has no memory left.
+  void insertInRegion(TetrahedronMesh& mesh, const Index* begin, const Index* end,
+    std::vector<Index>& left, std::vector<Coincidence>& found);
   /// Inserts the vertices [begin, end) while other threads insert others. Appends to `left` those
   /// that it does not insert, because another thread is at work there or because the mesh has no
   /// memory left.
@@ -284,6 +294,10 @@ private:
 
   void renewStart(const TetrahedronMesh& mesh);
   template <typename Access>
+  void insertEach(TetrahedronMesh& mesh, const Index* begin, const Index* end,
+    std::vector<Index>& left, std::vector<Coincidence>& found);
+  bool isOwn(Index vertex) const { return vertex == 0 || this->Regions[vertex] == this->Region; }
+  template <typename Access>
   bool insertOne(TetrahedronMesh& mesh, Index vertex, std::vector<Coincidence>& found);
   unsigned facetsBefore(const Index* v, const Point3& p, unsigned& inside) const;
   template <typename Access>
@@ -300,6 +314,7 @@ private:
     const TetrahedronMesh& mesh, std::size_t k, const Point3& p, TestedCell& tested) const;
   template <typename Access>
   bool decide(TetrahedronMesh& mesh, unsigned uncertain, const Point3& p, TestedCell& tested);
+  bool areInRegion(const Index* slots, unsigned in, const Links& across) const;
   template <typename Access>
   bool addTested(TetrahedronMesh& mesh, const Point3& p, TestedCell& tested);
   template <typename Access>
@@ -318,6 +333,8 @@ private:
   CavityFilling3 Filling;
   std::uint8_t Claim = TetrahedronMesh::InConflict; ///< the mark of tetrahedra to be removed
   std::atomic<std::uint64_t>* SharedEnd = nullptr;  ///< see share()
+  const std::uint8_t* Regions = nullptr;            ///< see shareRegions()
+  std::uint8_t Region = 0;
   Index Recent = 0; ///< a finite tetrahedron near the last inserted vertex
   OpenList<Index> Removed;
   OpenList<CavityFacet3> Boundary;

@@ -94,7 +94,9 @@ private:
 /// Access to a mesh that no other thread uses.
 struct AloneAccess3
 {
-  static constexpr bool IsShared = false;
+  static constexpr bool IsShared = false;   ///< whether other threads change the mesh
+  static constexpr bool IsClaimed = false;  ///< whether tetrahedra must be claimed from others
+  static constexpr bool IsInRegion = false; ///< whether each thread has a region
 
   static TetrahedronMesh::Index load(const TetrahedronMesh::Index& slot) { return slot; }
   static void store(TetrahedronMesh::Index& slot, TetrahedronMesh::Index value) { slot = value; }
@@ -126,6 +128,8 @@ struct AloneAccess3
 struct SharedAccess3
 {
   static constexpr bool IsShared = true;
+  static constexpr bool IsClaimed = true;
+  static constexpr bool IsInRegion = false;
 
   static TetrahedronMesh::Index load(const TetrahedronMesh::Index& slot)
   {
@@ -153,6 +157,32 @@ struct SharedAccess3
   static bool claimIf(bool isIn, std::uint8_t& mark, std::uint8_t own)
   {
     return !isIn || claim(mark, own);
+  }
+};
+
+/// Access to a mesh that several threads change, each of which has a region of space. A thread only
+/// removes tetrahedra all of whose vertices, but for the one at infinity, are in its region. Then no
+/// other thread removes a neighbour of these, and no other thread has a tetrahedron next to that
+/// neighbour: its facets share two vertices with that of the neighbour, one of which is finite. So
+/// links and marks of removed tetrahedra and of their neighbours are the thread's own, and claims
+/// are not needed.
+///
+/// Others' walks may enter tetrahedra that are removed or reused. If all vertices that a walk reads
+/// are in its thread's region, no other thread has written them: others write only vertices of
+/// their regions, into tetrahedra that had only such vertices or were free. So the tetrahedron is
+/// one of the mesh.
+struct RegionAccess3 : AloneAccess3
+{
+  static constexpr bool IsShared = true;
+  static constexpr bool IsInRegion = true;
+
+  static TetrahedronMesh::Index load(const TetrahedronMesh::Index& slot)
+  {
+    return SharedAccess3::load(slot);
+  }
+  static void store(TetrahedronMesh::Index& slot, TetrahedronMesh::Index value)
+  {
+    SharedAccess3::store(slot, value);
   }
 };
 
