@@ -164,7 +164,7 @@ bool ParallelInsertion3::mustStop(bool isCaller, const Monitor& proceed)
 void ParallelInsertion3::insertInRegion(std::size_t number, bool isCaller, const Monitor& proceed)
 {
   ++this->RegionsBegun;
-  constexpr std::size_t firstBlock = 1 << 6; // enough to see whether cavities are inside
+  constexpr std::size_t firstBlock = 1 << 8; // enough to see whether cavities are inside
   constexpr std::size_t block = 1 << 9;
   Worker& worker = this->Workers[number];
   std::vector<Index>& left = worker.NotInserted;
@@ -185,7 +185,7 @@ void ParallelInsertion3::insertInRegion(std::size_t number, bool isCaller, const
       }
     }
     isOver = isOver || this->AreRegionsOver || this->mustStop(isCaller, proceed) ||
-      (tried > 0 && left.size() > tried / 2);
+      left.size() > tried / 4 * 3;
     if (isOver)
     {
       left.insert(left.end(), own.begin(), own.end());

@@ -140,10 +140,7 @@ private:
       {
         const auto part = std::size_t(thread);
         std::vector<CellIds>& made = this->Cells[part];
-        std::size_t cells = 0;
-        kernel.forEach(
-          part, parts, [&](DelaunayKernel3::Index t) { cells += kernel.isInfinite(t) ? 0 : 1; });
-        made.reserve(cells);
+        made.reserve(kernel.numberEnd() / parts + 1); // a few too many: free and infinite ones
         kernel.forEach(part, parts,
           [&](DelaunayKernel3::Index t)
           {
