@@ -133,12 +133,17 @@ private:
       this->Result.Duplicates.push_back(
         { idOf(duplicate.Point), idOf(kernel.pointIndex(duplicate.Vertex)) });
     }
-    const auto parts = std::size_t(this->Threads);
+    // Several parts for each thread: one that shares its processor with other programs does fewer.
+    // Small parts would cost more for their memory.
+    constexpr std::size_t pointsPerPart = 1 << 16;
+    const auto threads = std::size_t(this->Threads);
+    const std::size_t parts =
+      threads > 1 ? std::clamp(count / pointsPerPart, threads, 8 * threads) : 1;
     this->Cells.resize(parts);
-    parallelFor(this->Threads, this->Threads,
-      [&](std::int64_t thread)
+    parallelFor(std::int64_t(parts), this->Threads,
+      [&](std::int64_t index)
       {
-        const auto part = std::size_t(thread);
+        const auto part = std::size_t(index);
         std::vector<CellIds>& made = this->Cells[part];
         made.reserve(kernel.numberEnd() / parts + 1); // a few too many: free and infinite ones
         kernel.forEach(part, parts,
