@@ -4,6 +4,7 @@
 
 #include "Arrays/Buffer.h"
 #include "Arrays/Scalar.h"
+#include "Parallel/Stopwatch.h"
 #include "Points/ReadPoints.h"
 #include "Resample/SimplexMesh.h"
 #include "Triangulation/PointsView.h"
@@ -190,15 +191,14 @@ public:
   void raiseIfStopped() const;
 
   /// Reports that the work is done, or raises the exception that stopped it. Requires the GIL.
-  void finish()
-  {
-    (*this)(1);
-    this->raiseIfStopped();
-  }
+  void finish();
 
 private:
+  bool ask(double fraction);
+
   Progress Function;
   std::thread::id Owner;
+  Stopwatch SinceAsked;
   bool Stopped = false;
   std::exception_ptr Raised;
 };

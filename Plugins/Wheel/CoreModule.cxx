@@ -69,6 +69,18 @@ bool Reporter::operator()(double fraction)
   {
     return !this->Stopped;
   }
+  // Without a function only Ctrl-C counts, and to look for it takes the GIL from other threads.
+  constexpr double seldom = 0.02; // seconds
+  if (!this->Function && this->SinceAsked.seconds() < seldom)
+  {
+    return true;
+  }
+  return this->ask(fraction);
+}
+
+bool Reporter::ask(double fraction)
+{
+  this->SinceAsked.restart();
   const nb::gil_scoped_acquire lock;
   try
   {
@@ -88,6 +100,15 @@ bool Reporter::operator()(double fraction)
     this->Stopped = true;
   }
   return !this->Stopped;
+}
+
+void Reporter::finish()
+{
+  if (!this->Stopped)
+  {
+    this->ask(1);
+  }
+  this->raiseIfStopped();
 }
 
 void Reporter::raiseIfStopped() const

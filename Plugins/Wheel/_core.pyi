@@ -26,6 +26,7 @@ def triangulate(
     in_stages: bool,
     threads: int,
     neighbors: bool,
+    details: bool,
     progress: _Progress | None,
     /,
 ) -> dict[str, Any]: ...

@@ -73,7 +73,7 @@ class Delaunay:
         points = np.array(points, np.float64, order="C")  # a copy that callers cannot change
         if points.shape[1] == 2:
             result = _core.triangulate(
-                points, None, None, 0, False, False, 0.0, 0.0, 0, 0, False, self._threads, False, None)
+                points, None, None, 0, False, False, 0.0, 0.0, 0, 0, False, self._threads, False, True, None)
             simplices = result["triangles"]
         else:
             result = _core.tetrahedralize(points, 0.0, 0, self._threads, False, None)

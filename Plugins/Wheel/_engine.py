@@ -80,8 +80,9 @@ def diagonal(points: np.ndarray) -> float:
 
 
 def triangulated(points: np.ndarray, options: dict[str, Any], progress: Progress | None,
-                 segments: constraints.Segments | None = None) -> dict[str, Any]:
-    """Returns the core's result. `points` are those of the segments, perhaps followed by others."""
+                 segments: constraints.Segments | None = None, details: bool = True) -> dict[str, Any]:
+    """Returns the core's result. `points` are those of the segments, perhaps followed by others.
+    `details`: duplicates, rejected points and statistics, too."""
     tolerance = options["tolerance"]
     pairs, cells, begin = ((None, None, 0) if segments is None
                            else (segments.pairs, segments.cells, segments.polygon_begin))
@@ -89,7 +90,7 @@ def triangulated(points: np.ndarray, options: dict[str, Any], progress: Progress
         points, pairs, cells, begin, options.get("crossings") == 1,
         segments is not None and options["marks"] == 2 and options["alpha"] == 0,
         tolerance * diagonal(points) if tolerance > 0 else 0.0, options["max_edge"], *options["partitions"],
-        options["schedule"] == 0, options["threads"], options.get("neighbors", False), progress)
+        options["schedule"] == 0, options["threads"], options.get("neighbors", False), details, progress)
     finish(progress)
     return result
 
@@ -170,7 +171,7 @@ def delaunay(points: Any, options: dict[str, Any], progress: Progress | None) ->
         array = xyz_of(points)
     else:
         array = coordinates(points)
-    result = triangulated(plain(array), options, progress)
+    result = triangulated(plain(array), options, progress, details=False)
     if result["warnings"]:
         warn(result["warnings"])
     return result["triangles"]
