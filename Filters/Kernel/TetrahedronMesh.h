@@ -161,8 +161,8 @@ struct SharedAccess3
 };
 
 /// Access to a mesh that several threads change, each of which has a region of space. A thread only
-/// removes tetrahedra all of whose vertices, but for the one at infinity, are in its region. Then no
-/// other thread removes a neighbour of these, and no other thread has a tetrahedron next to that
+/// removes tetrahedra all of whose vertices, but for the one at infinity, are in its region. Then
+/// no other thread removes a neighbour of these, and no other thread has a tetrahedron next to that
 /// neighbour: its facets share two vertices with that of the neighbour, one of which is finite. So
 /// links and marks of removed tetrahedra and of their neighbours are the thread's own, and claims
 /// are not needed.
