@@ -11,10 +11,10 @@
  *   tetrahedra. Its cells are loaded chunk by chunk (Direct Load) within MemoryLimit and
  *   partitioned according to Tiling; only the cells of the requested pieces are kept. The pieces
  *   are the same as those of a stored partitioned mesh;
- * - the output of a model, as `tipp flatten` reads it: NetCDF by UGRID, ADCIRC, SCHISM, FVCOM, FESOM
- *   or MPAS (.nc), SELAFIN (.slf), and meshes of ADCIRC (.14, .grd), SCHISM (.gr3) and SMS (.2dm),
- *   or .vtkhdf with time steps. It is one piece; each rank reads the mesh, and one the values. Other
- *   cells than triangles are cut, and missing values are NaN.
+ * - the output of a model, as `tipp flatten` reads it: NetCDF by UGRID, ADCIRC, SCHISM, FVCOM,
+ * FESOM or MPAS (.nc), SELAFIN (.slf), and meshes of ADCIRC (.14, .grd), SCHISM (.gr3) and SMS
+ * (.2dm), or .vtkhdf with time steps. It is one piece; each rank reads the mesh, and one the
+ * values. Other cells than triangles are cut, and missing values are NaN.
  *
  * A partition is a closed box. A cell is owned by the first partition that it shares a point with
  * and borrowed by the others that it meets, decided exactly. Points and cells have VTK global ids,
