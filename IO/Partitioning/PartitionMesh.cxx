@@ -477,6 +477,8 @@ PartitionStatistics partitionSeries(const std::string& input, const std::string&
   if (series)
   {
     statistics.VariablesLeftOut = series->LeftOut;
+    statistics.TimeUnits = series->TimeUnits;
+    statistics.Crs = series->Crs;
   }
   return statistics;
 }

@@ -57,9 +57,14 @@ struct PartitionStatistics
   /// Of a VTK data set on the first rank: as in Flattened.
   std::map<std::string, std::int64_t> LeftOut;
   std::int64_t GhostCells = 0;
-  std::vector<SeriesLeftOut> VariablesLeftOut; ///< of the output of a model, on the first rank
-  std::uint64_t SpilledBytes = 0;              ///< on all ranks
-  std::uint64_t MeshBytes = 0;                 ///< size of all files
+  ///@{
+  /// Of the output of a model, on the first rank: see MeshSeries.
+  std::vector<SeriesLeftOut> VariablesLeftOut;
+  std::string TimeUnits;
+  std::string Crs;
+  ///@}
+  std::uint64_t SpilledBytes = 0; ///< on all ranks
+  std::uint64_t MeshBytes = 0;    ///< size of all files
   int Ranks = 1;
   int Threads = 1;
   std::string Loader; ///< the loader that was used

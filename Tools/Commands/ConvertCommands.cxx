@@ -163,6 +163,10 @@ int flattenModelOutput(const FlattenArguments& arguments)
   if (code == Success)
   {
     warnOfVariablesLeftOut(series->Path, series->LeftOut);
+    if (!isFile(arguments))
+    {
+      warnOfDescriptionLost(series->Path, series->TimeUnits, series->Crs);
+    }
   }
   return code;
 }
@@ -377,6 +381,7 @@ int run(PartitionArguments& arguments)
       double(peakMemoryBytes()) / 1e6);
     warnOfCellsLeftOut(arguments.Input, statistics.LeftOut, statistics.GhostCells);
     warnOfVariablesLeftOut(arguments.Input, statistics.VariablesLeftOut);
+    warnOfDescriptionLost(arguments.Input, statistics.TimeUnits, statistics.Crs);
   }
   return Success;
 }

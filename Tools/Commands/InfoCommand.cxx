@@ -2,18 +2,22 @@
 #include "Commands/Commands.h"
 
 #include "Commands/PointArguments.h"
+#include "Commands/Report.h"
 #include "Commands/SeriesReport.h"
 #include "Console/Process.h"
 #include "Files/Formats.h"
 #include "Files/IOError.h"
 #include "Files/TemporaryPaths.h"
+#include "Flat/FlatMesh.h"
 #include "Las/CopcHierarchy.h"
 #include "Las/LasHeader.h"
 #include "Las/LazFile.h"
 #include "OpenCL/Devices.h"
 #include "Parallel/Poll.h"
+#include "Partitioned/PartitionedMesh.h"
 #include "Points/ReadPoints.h"
 #include "Predicates/Geometry.h"
+#include "Reading/PieceSource.h"
 #include "Series/MeshSeries.h"
 
 #include <CLI/CLI.hpp>
@@ -38,7 +42,8 @@ bounds, the columns and their ranges, the coordinate reference system, the numbe
 duplicates, and a resolution for 'tipp dem' that gives about one point per pixel. Of a COPC
 file it prints the levels, each with its points. Of text it prints which columns are x, y
 and z. Of the output of a model, in NetCDF or SELAFIN, it prints the mesh, the variables with
-their units, the time steps, and what is left out and why. A line 'check' names what may not be meant, and the option for it.
+their units, the time steps, and what is left out and why; of a flat or partitioned mesh its
+cells, arrays and time steps. A line 'check' names what may not be meant, and the option for it.
 
 Examples:
   tipp info tile.las
@@ -387,6 +392,42 @@ int describePoints(const InfoArguments& arguments)
   return Success;
 }
 
+/// Whether the path is that of a flat or partitioned mesh, not of points.
+bool isStoredMesh(const std::string& path)
+{
+  return isPartitionedMesh(path) || (isFlatMesh(path) && !isOpenedBy(path, Opener::Vtk));
+}
+
+/// Prints what a flat or partitioned mesh has.
+void describeMesh(const std::string& path)
+{
+  const std::unique_ptr<PieceSource> source = openPieceSource(path);
+  const PartitionedMesh& mesh = source->mesh();
+  fmt::print("{}: {}, {} points\n", shownPath(path),
+    isPartitionedMesh(path) ? counted(std::int64_t(mesh.Pieces.size()), "piece", "pieces")
+                            : "flat mesh",
+    mesh.Points);
+  fmt::print("{:<11} {}\n", mesh.CellSize == 3 ? "triangles" : "tetrahedra", mesh.Cells);
+  for (int axis = 0; axis < mesh.CellSize - 1 && !mesh.Domain.isEmpty(); ++axis)
+  {
+    fmt::print("{:<11} {} to {}\n", std::string(1, char('x' + axis)), mesh.Domain.Min[axis],
+      mesh.Domain.Max[axis]);
+  }
+  if (!mesh.Times.empty())
+  {
+    fmt::print(
+      "steps       {}, {} to {}\n", mesh.Times.size(), mesh.Times.front(), mesh.Times.back());
+  }
+  for (const StoredArray& array : mesh.Arrays)
+  {
+    if (array.Step <= 0) // each step is an array
+    {
+      fmt::print("{:<11} {}{}\n", array.Name, array.OfPoints ? "at points" : "on cells",
+        array.Step == 0 ? ", varies" : "");
+    }
+  }
+}
+
 bool isModelOutput(const std::string& path)
 {
   return isOpenedBy(path, Opener::Netcdf) || isOpenedBy(path, Opener::Selafin) ||
@@ -403,6 +444,10 @@ int runInfo(const InfoArguments& arguments)
     {
       describeSeries(*openMeshSeries(path));
     }
+    else if (isStoredMesh(path))
+    {
+      describeMesh(path);
+    }
     else
     {
       points.Inputs.push_back(path);
@@ -413,7 +458,8 @@ int runInfo(const InfoArguments& arguments)
 
 void addOptions(CLI::App& command, InfoArguments& arguments)
 {
-  command.add_option("input", arguments.Inputs, "The points, of one or more files")->required();
+  command.add_option("input", arguments.Inputs, "The files: points, output of models, or meshes")
+    ->required();
   addPointOptions(command, arguments.Points);
   addBoundsOption(command, arguments.Points);
 }
@@ -423,7 +469,8 @@ void addOptions(CLI::App& command, InfoArguments& arguments)
 void addInfoCommand(CLI::App& app, int& exitCode)
 {
   addCommand<InfoArguments>(app, exitCode, "info",
-    "Describes files of points: their number, bounds and columns", footer, addOptions,
+    "Describes files: points with their bounds and columns, or meshes with their arrays and steps",
+    footer, addOptions,
     [](InfoArguments& arguments) { return isIdleRank() ? Success : runInfo(arguments); });
 }
 

@@ -26,9 +26,9 @@ void printMesh(const SeriesMesh& mesh)
     box.extend(Point2{ mesh.XY[i], mesh.XY[i + 1] });
   }
   fmt::print("triangles   {}{}\n", mesh.Triangles.size() / 3,
-    originals.empty()
-      ? ""
-      : fmt::format(" of {} cells", 1 + *std::max_element(originals.begin(), originals.end())));
+    originals.empty() ? ""
+                      : fmt::format(", cut from {} cells",
+                          1 + *std::max_element(originals.begin(), originals.end())));
   fmt::print(
     "x           {} to {}\ny           {} to {}\n", box.Min.x, box.Max.x, box.Min.y, box.Max.y);
 }
@@ -57,6 +57,24 @@ void warnOfVariablesLeftOut(const std::string& path, const std::vector<SeriesLef
   for (const SeriesLeftOut& left : leftOut)
   {
     fmt::print(stderr, "tipp: warning: {}: {} {}.\n", shownPath(path), left.Name, left.Reason);
+  }
+}
+
+void warnOfDescriptionLost(
+  const std::string& path, const std::string& timeUnits, const std::string& crs)
+{
+  if (!timeUnits.empty())
+  {
+    fmt::print(stderr,
+      "tipp: warning: {}: its times are '{}', and the output has the numbers alone.\n",
+      shownPath(path), timeUnits);
+  }
+  if (!crs.empty())
+  {
+    fmt::print(stderr,
+      "tipp: warning: {}: the output does not state the reference system, {}; give it again with "
+      "--crs where it matters.\n",
+      shownPath(path), crs);
   }
 }
 

@@ -15,6 +15,10 @@ struct SeriesLeftOut;
 /// with the reason.
 void warnOfVariablesLeftOut(const std::string& path, const std::vector<SeriesLeftOut>& leftOut);
 
+/// Warns of what flat and partitioned meshes do not keep of the output of a model.
+void warnOfDescriptionLost(
+  const std::string& path, const std::string& timeUnits, const std::string& crs);
+
 /// Prints the mesh, its variables, the time steps, and what is left out.
 void describeSeries(MeshSeries& series);
 

@@ -128,6 +128,31 @@ TEST_F(TippUgrid, PiecesHaveTheSameMapsAndSeriesThroughTime)
   EXPECT_NE(std::string::npos, series[0].find("60,1,0.5,0.125,10.5")) << series[0];
 }
 
+TEST_F(TippUgrid, FoldersAndPiecesNameWhatTheyDoNotState)
+{
+  this->flatten({ "surge", "--crs", "EPSG:4326" }, "mesh.nc");
+  for (const Words& words : { Words{ "flatten", "mesh.nc", "-o", "folder" },
+         Words{ "partition", "mesh.nc", "-o", "mesh.tipp", "--tiling", "grid:1x2" } })
+  {
+    const Outcome outcome = runTipp(this->Folder, words);
+    ASSERT_EQ(0, outcome.ExitCode) << outcome.Err;
+    EXPECT_NE(std::string::npos, outcome.Err.find("the output does not state the reference system"))
+      << outcome.Err;
+  }
+  for (const char* mesh : { "folder", "mesh.tipp" })
+  {
+    const Outcome outcome = runTipp(this->Folder, { "info", mesh });
+    ASSERT_EQ(0, outcome.ExitCode) << outcome.Err;
+    for (const char* line : { "triangles   2\n", "steps       4, 0 to 240\n",
+           "level       at points, varies\n", "depth       at points\n" })
+    {
+      EXPECT_NE(std::string::npos, outcome.Out.find(line)) << outcome.Out;
+    }
+  }
+  EXPECT_NE(std::string::npos,
+    runTipp(this->Folder, { "info", "mesh.tipp" }).Out.find("mesh.tipp: 2 pieces, 4 points\n"));
+}
+
 TEST_F(TippUgrid, IsPartitionedWithItsSteps)
 {
   this->flatten({ "surge" }, "mesh.nc");
