@@ -38,8 +38,9 @@ Piece readFlatPiece(const FlatMesh& mesh, int threads)
   {
     for (const RawArray& array : ofPoints ? mesh.PointData : mesh.CellData)
     {
-      piece.Attributes.push_back(
-        { { array.Name, ofPoints, array.Type, array.Components, -1 }, bytesOf(array) });
+      Piece::Attribute& read = piece.Attributes.emplace_back();
+      read.Description = { array.Name, ofPoints, array.Type, array.Components, -1 };
+      read.Values = bytesOf(array);
     }
   }
   return piece;

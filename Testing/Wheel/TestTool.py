@@ -113,7 +113,7 @@ class Tool(unittest.TestCase):
         self.assertTrue(os.path.exists(path + b".npy"))
 
     def test_ctrl_c_ends_a_run_without_an_output(self):
-        np.save(self.folder / "many.npy", RANDOM.random((3_000_000, 3)))
+        np.save(self.folder / "many.npy", RANDOM.random((10_000_000, 3)))
         with subprocess.Popen([TIPP, "dem", "many.npy", "-o", "a.npy", "--resolution", "0.001"], cwd=self.folder,
                               stderr=subprocess.PIPE, text=True) as run:
             time.sleep(0.7)
