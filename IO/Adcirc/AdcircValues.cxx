@@ -64,6 +64,7 @@ private:
     try
     {
       this->readStep(step);
+      this->Result.IsCutOff = step > 0 && this->Rows.endsInLine();
     }
     catch (const IOError&)
     {
@@ -72,6 +73,9 @@ private:
       {
         throw;
       }
+    }
+    if (this->Result.IsCutOff)
+    {
       this->Result.Values.resize(values);
       this->Result.Times.resize(times);
     }

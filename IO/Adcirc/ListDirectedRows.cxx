@@ -80,11 +80,15 @@ void ListDirectedRows::next(std::size_t fields, const char* what)
   }
 }
 
+bool ListDirectedRows::endsInLine() const
+{
+  const bool hasEnd = !this->Text.empty() && this->Text.back() == '\n';
+  return this->isAtEnd() && !hasEnd;
+}
+
 bool ListDirectedRows::isCutOff() const
 {
-  const bool isAtEnd = this->rest().find_first_not_of(" \t\r\n") == std::string_view::npos;
-  const bool hasEnd = !this->Text.empty() && this->Text.back() == '\n';
-  return isAtEnd && (!hasEnd || this->IsBeyondEnd);
+  return this->endsInLine() || (this->isAtEnd() && this->IsBeyondEnd);
 }
 
 void ListDirectedRows::addLine(std::string_view line)

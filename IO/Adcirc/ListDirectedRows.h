@@ -42,12 +42,18 @@ public:
   /// An upper bound of the number of lines after the row.
   std::int64_t remainingLines() const { return this->Total - this->Lines.lineNumber(); }
 
-  /// Whether all lines have been read, and nothing follows or the last one has no end.
+  /// Whether all lines have been read, and the last one has no end: its last value may be cut off.
+  bool endsInLine() const;
+  /// The same, or a line was asked for that does not follow.
   bool isCutOff() const;
 
   [[noreturn]] void fail(const std::string& problem) const;
 
 private:
+  bool isAtEnd() const
+  {
+    return this->rest().find_first_not_of(" \t\r\n") == std::string_view::npos;
+  }
   void addLine(std::string_view line);
   void addValue(std::string_view text);
   void addValues(std::size_t count, std::string_view text);

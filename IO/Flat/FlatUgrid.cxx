@@ -4,6 +4,7 @@
 #include "Files/IOError.h"
 #include "Series/VariableNames.h"
 
+#include <algorithm>
 #include <cstring>
 #include <memory>
 #include <vector>
@@ -58,6 +59,21 @@ void add(UgridContent& to, const FlatArray& array, bool onCells)
   }
 }
 
+/// Whether a point has a third coordinate other than 0.
+bool haveHeights(const FlatArray& points)
+{
+  const auto read = readerOf(points, 2);
+  bool isAny = false;
+  withScalar(points.Type,
+    [&](auto zero)
+    {
+      using T = decltype(zero);
+      const auto* const heights = static_cast<const T*>(read(0));
+      isAny = std::any_of(heights, heights + points.Tuples, [](T height) { return height != 0; });
+    });
+  return isAny;
+}
+
 } // namespace
 
 UgridContent ugridOf(const FlatContent& content, const std::string& source)
@@ -89,7 +105,7 @@ UgridContent ugridOf(const FlatContent& content, const std::string& source)
   {
     add(result, array, false);
   }
-  if (dimension == 3)
+  if (dimension == 3 && haveHeights(points))
   {
     result.Arrays.push_back({ heightName(result.Arrays), "", "", points.Type, false, false,
       readerOf(content.Points, 2) });

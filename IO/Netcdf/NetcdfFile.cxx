@@ -14,6 +14,7 @@
 #include <cmath>
 #include <cstring>
 #include <exception>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -207,11 +208,12 @@ std::size_t NetcdfFile::requireNumbers(const NetcdfVariable& variable, const Net
   }
   for (const char* const factor : { "scale_factor", "add_offset" })
   {
-    if (variable.find(factor) && !variable.number(factor))
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    if (variable.find(factor) && !std::isfinite(variable.number(factor).value_or(none)))
     {
       throw IOError(this->Path,
         "gives '" + variable.Name + "' the " + factor + " '" + shownText(variable.text(factor)) +
-          "', which is no number; correct the attribute.");
+          "', which is no finite number; correct the attribute.");
     }
   }
   return this->checkPart(variable, part);

@@ -90,11 +90,15 @@ NetcdfPacking packingOf(const NetcdfVariable& variable)
   for (const char* name : { "_FillValue", "missing_value" })
   {
     const NetcdfAttribute* const attribute = variable.find(name);
-    if (attribute && !attribute->Numbers.empty())
+    std::vector<double> numbers = attribute ? attribute->Numbers : std::vector<double>();
+    if (const auto written = variable.number(name); numbers.empty() && written)
+    {
+      numbers.push_back(*written); // as text
+    }
+    if (!numbers.empty())
     {
       packing.Missing = name[0] == '_' ? std::vector<double>() : packing.Missing;
-      std::transform(attribute->Numbers.begin(), attribute->Numbers.end(),
-        std::back_inserter(packing.Missing), asStored);
+      std::transform(numbers.begin(), numbers.end(), std::back_inserter(packing.Missing), asStored);
     }
   }
   packing.Low = asStored(variable.number("valid_min").value_or(packing.Low));

@@ -7,6 +7,7 @@
 #include "Partitioning/FlattenPieces.h"
 #include "Series/VariableNames.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -39,9 +40,15 @@ public:
     {
       this->add(array, true);
     }
-    this->Sources.push_back({ &this->Content.Points, 2 });
-    this->Variables.push_back(
-      { heightName(this->Variables), "", "", this->Content.Points.Type, false, false });
+    const std::vector<PieceSummary>& pieces = this->Mesh.Pieces;
+    if (std::any_of(pieces.begin(), pieces.end(),
+          [](const PieceSummary& piece)
+          { return piece.Extent.Min.z < 0 || piece.Extent.Max.z > 0; }))
+    {
+      this->Sources.push_back({ &this->Content.Points, 2 });
+      this->Variables.push_back(
+        { heightName(this->Variables), "", "", this->Content.Points.Type, false, false });
+    }
   }
 
   SeriesMesh readMesh() override

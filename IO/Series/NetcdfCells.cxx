@@ -204,7 +204,14 @@ private:
   /// Without a statement of the file, all numbers must be nodes.
   std::int64_t findFirst()
   {
-    if (const auto stated = this->Mesh.Corners->number("start_index"))
+    const auto stated = this->Mesh.Corners->number("start_index");
+    if (!stated && this->Mesh.Corners->find("start_index"))
+    {
+      throw IOError(this->File.path(),
+        "has the start_index '" + shownText(this->Mesh.Corners->text("start_index")) +
+          "', which is no number; correct the attribute.");
+    }
+    if (stated)
     {
       if (*stated != 0 && *stated != 1)
       {

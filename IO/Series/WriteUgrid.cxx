@@ -37,7 +37,8 @@ class UgridWriter
 public:
   UgridWriter(
     const std::string& path, const UgridContent& content, const std::optional<PathState>& before)
-    : Content(content)
+    : Path(path)
+    , Content(content)
     , Output(path, before, false, "rename it.")
     , Wkt(content.Crs.empty() ? "" : wkt1Of(content.Crs, true))
   {
@@ -184,7 +185,7 @@ private:
         const Point2 p = this->Content.Node(node);
         if (!std::isfinite(p.x) || !std::isfinite(p.y))
         {
-          throw IOError(this->Content.Source,
+          throw IOError(this->Content.Source.empty() ? this->Path : this->Content.Source,
             "has no finite coordinates at point " + std::to_string(node) +
               " (from 0), and a mesh by UGRID needs them; remove the point.");
         }
@@ -250,6 +251,7 @@ private:
     }
   }
 
+  const std::string Path;
   const UgridContent& Content;
   NetcdfOutput Output;
   const std::string Wkt;

@@ -44,7 +44,9 @@ bool isOneStep(const std::string& text)
 std::string checkSteps(const std::string& text)
 {
   const std::vector<std::string_view> parts = partsOf(text);
-  const bool isRange = parts.size() <= 3 && std::all_of(parts.begin(), parts.end(), isPart);
+  const bool isRange = !text.empty() &&
+    text.find_first_not_of("0123456789:") == std::string::npos && parts.size() <= 3 &&
+    std::all_of(parts.begin(), parts.end(), isPart);
   std::int64_t stride = 1;
   if (isRange && parts.size() == 3 && parseInteger(parts[2], stride) && stride == 0)
   {

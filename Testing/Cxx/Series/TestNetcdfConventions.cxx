@@ -499,6 +499,12 @@ TEST_F(NetcdfConventions, AStartIndexOtherThanZeroOrOneIsRefused)
   NetcdfWriter::check(nc_close(file));
   expectIOError(this->path("u.nc"), "states that its nodes are counted from 5",
     [&] { openMeshSeries(this->path("u.nc"))->readMesh(); });
+  NetcdfWriter::check(nc_open(this->path("u.nc").c_str(), NC_WRITE, &file));
+  NetcdfWriter::check(nc_redef(file));
+  NetcdfWriter::check(nc_put_att_text(file, corners, "start_index", 3, "one"));
+  NetcdfWriter::check(nc_close(file));
+  expectIOError(this->path("u.nc"), "has the start_index 'one', which is no number",
+    [&] { openMeshSeries(this->path("u.nc"))->readMesh(); });
 }
 
 TEST_F(NetcdfConventions, WrittenUgridKeepsEachWholeNumber)

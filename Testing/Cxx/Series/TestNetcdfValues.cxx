@@ -104,12 +104,20 @@ TEST_F(NetcdfValues, MayBePackedByNumbersWrittenAsText)
   EXPECT_EQ((std::vector<double>{ 2, -1 }),
     this->read(
       NC_SHORT, { 4, -2 }, [](NetcdfWriter& w, int v) { w.text(v, "scale_factor", "0.5"); }));
-  expectIOError(this->Folder.path("a.nc"), "gives 'v' the scale_factor 'half', which is no number",
+  expectIOError(this->Folder.path("a.nc"),
+    "gives 'v' the scale_factor 'half', which is no finite number",
     [this]
     {
       this->read(
         NC_SHORT, { 4 }, [](NetcdfWriter& w, int v) { w.text(v, "scale_factor", "half"); });
     });
+}
+
+TEST_F(NetcdfValues, AreNoneAtAMissingValueWrittenAsText)
+{
+  EXPECT_EQ((std::vector<double>{ 1, -1000 }),
+    this->read(
+      NC_FLOAT, { 1, -99 }, [](NetcdfWriter& w, int v) { w.text(v, "missing_value", "-99"); }));
 }
 
 TEST_F(NetcdfValues, OfClassicFilesMayBeUnsigned)

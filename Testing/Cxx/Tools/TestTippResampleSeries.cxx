@@ -47,7 +47,8 @@ TEST_F(TippResampleSeries, RefusesStepsThatThereAreNot)
     EXPECT_NE(outcome.Err.find("surge: has no time step"), std::string::npos) << outcome.Err;
     EXPECT_FALSE(this->exists("no.npy"));
   }
-  for (const char* steps : { "-1", "-1:2", "a:b", "0:1:1:1", "0:99999999999999999999", "every" })
+  for (const char* steps :
+    { "-1", "-1:2", "a:b", "0:1:1:1", "0:99999999999999999999", "every", " 1", "1 ", "" })
   {
     const Outcome outcome = this->run({ "-o", "no.npy", "--step", steps, "--arrays", "level" });
     EXPECT_EQ(2, outcome.ExitCode) << steps;
