@@ -16,7 +16,7 @@ bool isTaken(const Variables& variables, const std::string& name)
     [&name](const auto& variable) { return variable.Name == name; });
 }
 
-/// The name for an array of cells: other than those of the arrays at points.
+/// A name for an array at cells that no array at points has.
 template <typename Variables>
 std::string freeName(const Variables& variables, std::string name)
 {
