@@ -227,7 +227,7 @@ void checkDepths(const MeshArguments& arguments, const MadeMesh& made)
   if (missing == std::int64_t(made.Points.size()))
   {
     throw IOError(path,
-      "has no depth at any node; give a file of the same place, in the same reference system.");
+      "has no depth at any node; give a file of the same area, in the same reference system.");
   }
   if (arguments.OutputIs != Opener::Vtk)
   {
@@ -287,21 +287,21 @@ void addDepths(const MeshArguments& arguments, MadeMesh& made)
 }
 
 /// The closed lines of a boundary, without repeated corners. Its edges may come in any order and
-/// direction, as at each place, compared by x and y, an even number of them ends.
+/// direction, because an even number of them ends at each position, compared by x and y.
 std::vector<std::vector<Point2>> ringsOf(const ConstraintTable& table)
 {
-  using Place = std::pair<double, double>;
-  const auto placeOf = [&table](std::int64_t id) {
-    return Place{ table.XY[2 * std::size_t(id)], table.XY[2 * std::size_t(id) + 1] };
+  using Position = std::pair<double, double>;
+  const auto positionOf = [&table](std::int64_t id) {
+    return Position{ table.XY[2 * std::size_t(id)], table.XY[2 * std::size_t(id) + 1] };
   };
-  std::map<Place, std::vector<std::size_t>> edgesAt;
+  std::map<Position, std::vector<std::size_t>> edgesAt;
   for (std::size_t edge = 0; edge < table.Edges.size(); ++edge)
   {
-    edgesAt[placeOf(table.Edges[edge][0])].push_back(edge);
-    edgesAt[placeOf(table.Edges[edge][1])].push_back(edge);
+    edgesAt[positionOf(table.Edges[edge][0])].push_back(edge);
+    edgesAt[positionOf(table.Edges[edge][1])].push_back(edge);
   }
   std::vector<bool> isUsed(table.Edges.size(), false);
-  const auto takeEdge = [&](const Place& at)
+  const auto takeEdge = [&](const Position& at)
   {
     std::vector<std::size_t>& edges = edgesAt[at];
     while (!edges.empty() && isUsed[edges.back()])
@@ -314,13 +314,13 @@ std::vector<std::vector<Point2>> ringsOf(const ConstraintTable& table)
   for (const auto& first : table.Edges)
   {
     std::vector<Point2> ring;
-    Place at = placeOf(first[0]);
+    Position at = positionOf(first[0]);
     for (std::size_t edge = takeEdge(at); edge < table.Edges.size(); edge = takeEdge(at))
     {
       isUsed[edge] = true;
       ring.push_back({ at.first, at.second });
-      const Place end = placeOf(table.Edges[edge][0]);
-      at = end == at ? placeOf(table.Edges[edge][1]) : end;
+      const Position end = positionOf(table.Edges[edge][0]);
+      at = end == at ? positionOf(table.Edges[edge][1]) : end;
     }
     if (!ring.empty())
     {
