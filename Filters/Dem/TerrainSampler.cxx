@@ -3,6 +3,7 @@
 
 #include "Parallel/ParallelFor.h"
 #include "Points/ReadPoints.h"
+#include "Predicates/Angles.h"
 #include "Resample/Resample.h"
 
 #include <algorithm>
@@ -166,12 +167,6 @@ double shade(const Gradient& gradient)
   return 1 + 254 * (light < 0 ? 0 : light); // NaN stays NaN
 }
 
-double degrees(double radians)
-{
-  constexpr double pi = 3.14159265358979323846;
-  return radians * (180 / pi);
-}
-
 /// The value of a derived band (not a column) in a triangle.
 double derivedValue(DemBand::Kind kind, const Corners& corners)
 {
@@ -183,10 +178,10 @@ double derivedValue(DemBand::Kind kind, const Corners& corners)
     case DemBand::Kind::Density:
       return 1 / gradient.TwiceArea;
     case DemBand::Kind::Slope:
-      return degrees(std::atan(std::hypot(gradient.X, gradient.Y)));
+      return degreesOf(1, std::sqrt(gradient.X * gradient.X + gradient.Y * gradient.Y));
     case DemBand::Kind::Aspect:
     {
-      const double angle = degrees(std::atan2(-gradient.X, -gradient.Y));
+      const double angle = degreesOf(-gradient.Y, -gradient.X);
       const bool isFlat = gradient.X == 0 && gradient.Y == 0;
       const double turned = angle < 0 ? angle + 360 : angle;
       return isFlat ? noValue : turned < 360 ? turned : 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Refinement/Refine.h"
 
+#include "Predicates/Angles.h"
 #include "Refinement/BlockRefiner.h"
 #include "Refinement/RefinementBlocks.h"
 #include "Refinement/RefinementMesh.h"
@@ -26,8 +27,6 @@ namespace
 using Index = RefinementMesh::Index;
 using Triangle = RefinementMesh::Triangle;
 using Element = RefinementQueue::Element;
-
-constexpr double Degree = 3.14159265358979323846 / 180;
 
 Index regionOf(const Triangle& triangle)
 {
@@ -187,7 +186,7 @@ void Refinement::setRules()
     ? this->Options.ShortestEdge
     : std::max(std::ldexp(side, -36), std::ldexp(box.largest(), -44));
   this->Rules.prepare(1);
-  const double sine = std::sin(this->Options.MinimumAngle * Degree);
+  const double sine = sineOfDegrees(this->Options.MinimumAngle);
   this->LeastSineSquared = sine * sine * (1 + 1e-12);
 }
 
@@ -492,7 +491,7 @@ struct TriangleShape
   {
     const double product = this->product();
     const double square = product > 0 ? this->Twice * this->Twice * this->shortest() / product : 0;
-    return std::asin(std::min(1.0, std::sqrt(square))) / Degree;
+    return degreesOf(std::sqrt(std::max(0.0, 1 - square)), std::sqrt(square));
   }
 
   double Twice;                  ///< the area

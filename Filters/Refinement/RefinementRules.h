@@ -2,6 +2,7 @@
 #ifndef tippRefinementRules_h
 #define tippRefinementRules_h
 
+#include "Predicates/Angles.h"
 #include "Predicates/Geometry.h"
 #include "Predicates/Vectors.h"
 #include "Refinement/RefinementMesh.h"
@@ -54,15 +55,15 @@ public:
   {
     this->Coarser = coarser;
     this->LeastTwice = 2 * this->LeastArea * coarser;
-    constexpr double degree = 3.14159265358979323846 / 180;
-    const double angle = this->MinimumAngle * degree;
+    const double sine = sineOfDegrees(this->MinimumAngle);
     // A little above the bound, so that rounding here never accepts an angle below it.
-    this->SineSquared = std::sin(angle) * std::sin(angle) * (1 + 1e-10);
+    this->SineSquared = sine * sine * (1 + 1e-10);
     // Without a bound on angles, 20 degrees keep triangles at subsegments from becoming flat.
-    const double lens = std::cos(2 * std::clamp(this->MinimumAngle, 20.0, 45.0) * degree);
+    const double lens = cosineOfDegrees(2 * std::clamp(this->MinimumAngle, 20.0, 45.0));
     this->LensCosineSquared = lens * lens;
     // Üngör's off-center, shortened by Shewchuk's 0.95 / 2.
-    this->OffCenter = 0.475 / std::tan(angle / 2);
+    this->OffCenter =
+      0.475 * cosineOfDegrees(this->MinimumAngle / 2) / sineOfDegrees(this->MinimumAngle / 2);
   }
 
   /// Whether p encroaches upon the subsegment ab: it lies in its diametral lens, from where the

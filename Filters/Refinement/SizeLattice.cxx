@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Refinement/SizeLattice.h"
 
+#include "Predicates/Angles.h"
 #include "Predicates/SensibleRange.h"
 
 #include <array>
@@ -12,13 +13,10 @@ namespace tipp
 namespace
 {
 
-constexpr double radiansPerDegree = 3.14159265358979323846 / 180;
-
 double unitOfLongitude(double latitude)
 {
   constexpr double leastCosine = 0.01;
-  return SizeLattice::MetresPerDegree *
-    std::max(std::cos(latitude * radiansPerDegree), leastCosine);
+  return SizeLattice::MetresPerDegree * std::max(cosineOfDegrees(latitude), leastCosine);
 }
 
 void requireBox(const Box2& box, PlaneKind kind)

@@ -2,6 +2,7 @@
 #include "Refinement/SizeRules.h"
 
 #include "Locate/BoxTree.h"
+#include "Predicates/Angles.h"
 
 #include <algorithm>
 #include <cmath>
@@ -289,8 +290,8 @@ struct StepCosts
 
 StepCosts costsOf(double stepX, double stepY, double g)
 {
-  const double angle = std::atan2(stepY, stepX);
-  const double rate = g * std::cos(std::max(angle, pi / 2 - angle) / 2);
+  const double angle = degreesOf(stepX, stepY);
+  const double rate = g * cosineOfDegrees(std::max(angle, 90 - angle) / 2);
   return { rate * stepX, rate * stepY, rate * std::hypot(stepX, stepY) };
 }
 

@@ -5,6 +5,7 @@
 #include "Constraints/ConstraintEdges.h"
 #include "Parallel/CountingSort.h"
 #include "Parallel/ParallelFor.h"
+#include "Predicates/Angles.h"
 #include "Predicates/ExactPredicates.h"
 #include "Predicates/Vectors.h"
 
@@ -49,8 +50,7 @@ public:
     , Segments(mesh.Segments)
     , Neighbors(mesh.Triangles.size())
   {
-    constexpr double degree = 3.14159265358979323846 / 180;
-    const double sine = std::sin(options.MinimumAngle * degree);
+    const double sine = sineOfDegrees(options.MinimumAngle);
     this->LeastSineSquared = sine * sine * (1 + 1e-12); // rounding must not hide an angle
     findNeighbors(mesh.Triangles.data(), mesh.triangleCount(), this->Neighbors.data());
     this->findMovable();

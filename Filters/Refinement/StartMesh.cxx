@@ -2,6 +2,7 @@
 #include "Refinement/StartMesh.h"
 
 #include "Arrays/FindNeighbors.h"
+#include "Predicates/Angles.h"
 #include "Predicates/ExactPredicates.h"
 
 #include <algorithm>
@@ -162,7 +163,6 @@ struct Ray
 /// Finds the ends at which a segment and the next one, seen across the domain, make a sharp angle.
 void findSharpEnds(std::vector<Ray> rays, std::vector<InputSegment>& segments)
 {
-  constexpr double pi = 3.14159265358979323846;
   std::sort(rays.begin(), rays.end(),
     [](const Ray& a, const Ray& b)
     { return a.Id != b.Id ? a.Id < b.Id : a.Direction < b.Direction; });
@@ -176,8 +176,8 @@ void findSharpEnds(std::vector<Ray> rays, std::vector<InputSegment>& segments)
     {
       const Ray& ray = rays[i];
       const Ray& next = rays[i + 1 < end ? i + 1 : begin];
-      const double angle = next.Direction - ray.Direction + (i + 1 < end ? 0 : 2 * pi);
-      if (ray.HasDomain && angle < pi / 3)
+      const double angle = next.Direction - ray.Direction + (i + 1 < end ? 0 : 360);
+      if (ray.HasDomain && angle < 60)
       {
         segments[std::size_t(ray.Segment)].IsSharp[ray.End] = true;
         segments[std::size_t(next.Segment)].IsSharp[next.End] = true;
@@ -290,7 +290,7 @@ private:
     const auto directionOf = [&](std::size_t from)
     {
       const Point2 along = segment.Ends[1 - from] - segment.Ends[from];
-      return std::atan2(along.y, along.x);
+      return degreesOf(along.x, along.y);
     };
     const std::size_t from = segment.Ids[0] == start ? 0 : 1;
     this->Rays.push_back({ start, directionOf(from), number, from, true });

@@ -177,9 +177,24 @@ void requireText(const std::string& path, std::string_view text)
   {
     throw IOError(path, "is UTF-16 text; save it as UTF-8, as with 'iconv -f UTF-16 -t UTF-8'.");
   }
+  if (text.substr(0, 4) == "\x89HDF")
+  {
+    throw IOError(path,
+      "is not text but HDF5, as NetCDF 4 and VTK's .vtkhdf are; give it the extension of these.");
+  }
+  if (text.size() > 3 && text.substr(0, 3) == "CDF" &&
+    (text[3] == 1 || text[3] == 2 || text[3] == 5))
+  {
+    throw IOError(path, "is not text but NetCDF; give it the extension .nc.");
+  }
   if (text.substr(0, 4096).find('\0') != std::string_view::npos)
   {
-    refuseKind(path, "is not a text file; give its extension as what it is.");
+    const std::string problem = "is not a text file; give it the extension of what it is.";
+    if (formatOf(path, Use::Points | Use::Triangles))
+    {
+      throw IOError(path, problem);
+    }
+    refuseKind(path, problem);
   }
 }
 

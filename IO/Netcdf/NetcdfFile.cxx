@@ -209,7 +209,14 @@ std::size_t NetcdfFile::requireNumbers(const NetcdfVariable& variable, const Net
   for (const char* const factor : { "scale_factor", "add_offset" })
   {
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
-    if (variable.find(factor) && !std::isfinite(variable.number(factor).value_or(none)))
+    const NetcdfAttribute* const attribute = variable.find(factor);
+    if (attribute && attribute->Numbers.size() > 1)
+    {
+      throw IOError(this->Path,
+        "gives '" + variable.Name + "' " + std::to_string(attribute->Numbers.size()) +
+          " values of " + factor + "; it should be one number for all values.");
+    }
+    if (attribute && !std::isfinite(variable.number(factor).value_or(none)))
     {
       throw IOError(this->Path,
         "gives '" + variable.Name + "' the " + factor + " '" + shownText(variable.text(factor)) +

@@ -2,6 +2,7 @@
 #include "Partitioned/PartitionedMesh.h"
 
 #include "Files/Checksum.h"
+#include "Files/Formats.h"
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
 #include "Files/PendingOutput.h"
@@ -491,8 +492,12 @@ bool isPartitionedMesh(const std::string& path)
   std::error_code ignored;
   if (fs::is_directory(path, ignored))
   {
-    return fs::is_regular_file(fs::path(path) / indexName, ignored) &&
-      fs::is_regular_file(fs::path(path) / tablesName, ignored);
+    const auto has = [&](const char* name)
+    { return fs::is_regular_file(fs::path(path) / name, ignored); };
+    // With the extension, a folder that lacks these files is reported as a damaged mesh, unless it
+    // is a flat mesh.
+    return (has(indexName) && has(tablesName)) ||
+      (isOpenedBy(path, Opener::Pieces) && !has("cells.npy"));
   }
   return fs::path(path).filename() == indexName &&
     fs::is_regular_file(fs::path(path).parent_path() / tablesName, ignored);

@@ -165,7 +165,7 @@ std::vector<double> loadCoordinates(
 
 /// Returns the bounding box of all points in the cells' dimension; for triangles z is 0. Throws
 /// IOError naming the first point with a coordinate that is not finite. Collective.
-Box3 boundsOfPoints(const FlatMesh& mesh, Communicator& ranks, int threads);
+VTKTIPPIO_EXPORT Box3 boundsOfPoints(const FlatMesh& mesh, Communicator& ranks, int threads);
 
 /// Writes each point's owner, the first partition whose closed box contains it, to a file of 4
 /// bytes per point: the partition's index, or -1 - index if others contain the point, too.

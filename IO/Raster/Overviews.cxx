@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Raster/Overviews.h"
 
+#include "Predicates/Angles.h"
+
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -12,7 +14,6 @@ namespace
 
 constexpr auto side = std::size_t(RasterTileSize);
 constexpr double noValue = std::numeric_limits<double>::quiet_NaN();
-constexpr double degree = 3.14159265358979323846 / 180;
 
 /// Sums over the raster's pixels that stand behind each pixel of a tile of an overview.
 struct TileSums
@@ -39,10 +40,10 @@ TileSums sumsOf(const TilePixels& pixels, OverviewRule rule)
       continue;
     }
     const bool isDirection = rule == OverviewRule::Direction;
-    sums.X[i] = isDirection ? std::cos(degree * pixels[i]) : pixels[i];
+    sums.X[i] = isDirection ? cosineOfDegrees(pixels[i]) : pixels[i];
     if (isDirection)
     {
-      sums.Y[i] = std::sin(degree * pixels[i]);
+      sums.Y[i] = sineOfDegrees(pixels[i]);
     }
     sums.Count[i] = 1;
   }
@@ -87,11 +88,11 @@ double valueOf(const TileSums& sums, std::size_t i)
   {
     return sums.X[i] / count;
   }
-  if (std::hypot(sums.X[i], sums.Y[i]) < least * count)
+  if (std::sqrt(sums.X[i] * sums.X[i] + sums.Y[i] * sums.Y[i]) < least * count)
   {
     return noValue;
   }
-  const double angle = std::atan2(sums.Y[i], sums.X[i]) / degree;
+  const double angle = degreesOf(sums.X[i], sums.Y[i]);
   const double turned = angle < 0 ? angle + 360 : angle;
   return turned < 360 ? turned : 0;
 }

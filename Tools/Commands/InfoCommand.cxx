@@ -15,6 +15,7 @@
 #include "OpenCL/Devices.h"
 #include "Parallel/Poll.h"
 #include "Partitioned/PartitionedMesh.h"
+#include "Partitioning/MeshTiling.h"
 #include "Points/ReadPoints.h"
 #include "Predicates/Geometry.h"
 #include "Reading/PieceSource.h"
@@ -398,6 +399,16 @@ bool isStoredMesh(const std::string& path)
   return isPartitionedMesh(path) || (isFlatMesh(path) && !isOpenedBy(path, Opener::Vtk));
 }
 
+Box3 boundsOf(const std::string& path, const PartitionedMesh& mesh)
+{
+  if (isPartitionedMesh(path))
+  {
+    return mesh.Domain;
+  }
+  Communicator alone(nullptr);
+  return boundsOfPoints(openFlatMesh(path), alone, 0);
+}
+
 /// Prints what a flat or partitioned mesh has.
 void describeMesh(const std::string& path)
 {
@@ -408,10 +419,11 @@ void describeMesh(const std::string& path)
                             : "flat mesh",
     mesh.Points);
   fmt::print("{:<11} {}\n", mesh.CellSize == 3 ? "triangles" : "tetrahedra", mesh.Cells);
-  for (int axis = 0; axis < mesh.CellSize - 1 && !mesh.Domain.isEmpty(); ++axis)
+  const Box3 bounds = boundsOf(path, mesh);
+  for (int axis = 0; axis < mesh.CellSize - 1 && !bounds.isEmpty(); ++axis)
   {
-    fmt::print("{:<11} {} to {}\n", std::string(1, char('x' + axis)), mesh.Domain.Min[axis],
-      mesh.Domain.Max[axis]);
+    fmt::print(
+      "{:<11} {} to {}\n", std::string(1, char('x' + axis)), bounds.Min[axis], bounds.Max[axis]);
   }
   if (!mesh.Times.empty())
   {

@@ -228,6 +228,17 @@ TEST_F(TextPoints, BinaryFileIsReported)
   this->expectError(std::string("ab\0cd", 5), "is not a text file");
 }
 
+TEST_F(TextPoints, NetcdfWithTheNameOfATextIsReported)
+{
+  this->expectError(std::string("CDF\1\0\0", 6), "is not text but NetCDF; give it the extension");
+  this->expectError("\x89HDF\r\n\x1a\n", "is not text but HDF5");
+}
+
+TEST_F(TextPoints, ColumnMayBeCalledAsNetcdfBegins)
+{
+  EXPECT_EQ(std::vector<std::string>{ "CDF" }, this->read("CDF,x,y\n1,2,3\n").names());
+}
+
 TEST_F(TextPoints, CompressedTextWithoutItsExtensionIsReported)
 {
   this->expectError("\x1f\x8b\x08 and more", "gzip -dc FILE");

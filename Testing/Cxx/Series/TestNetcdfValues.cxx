@@ -113,6 +113,18 @@ TEST_F(NetcdfValues, MayBePackedByNumbersWrittenAsText)
     });
 }
 
+TEST_F(NetcdfValues, WithSeveralScalesAreRefused)
+{
+  expectIOError(this->Folder.path("a.nc"), "gives 'v' 2 values of scale_factor",
+    [this]
+    {
+      this->read(NC_SHORT, { 4 },
+        [](NetcdfWriter& w, int v) {
+          w.number(v, "scale_factor", NC_DOUBLE, { 1, 2 });
+        });
+    });
+}
+
 TEST_F(NetcdfValues, AreNoneAtAMissingValueWrittenAsText)
 {
   EXPECT_EQ((std::vector<double>{ 1, -1000 }),

@@ -143,14 +143,23 @@ TEST_F(TippUgrid, FoldersAndPiecesNameWhatTheyDoNotState)
   {
     const Outcome outcome = runTipp(this->Folder, { "info", mesh });
     ASSERT_EQ(0, outcome.ExitCode) << outcome.Err;
-    for (const char* line : { "triangles   2\n", "steps       4, 0 to 240\n",
-           "level       at points, varies\n", "depth       at points\n" })
+    for (const char* line :
+      { "triangles   2\n", "x           0 to 1\n", "steps       4, 0 to 240\n",
+        "level       at points, varies\n", "depth       at points\n" })
     {
       EXPECT_NE(std::string::npos, outcome.Out.find(line)) << outcome.Out;
     }
   }
   EXPECT_NE(std::string::npos,
     runTipp(this->Folder, { "info", "mesh.tipp" }).Out.find("mesh.tipp: 2 pieces, 4 points\n"));
+}
+
+TEST_F(TippUgrid, FolderOfPiecesWithoutItsIndexIsReported)
+{
+  std::filesystem::create_directory(this->Folder.path("empty.tipp"));
+  const Outcome outcome = runTipp(this->Folder, { "info", "empty.tipp" });
+  EXPECT_NE(0, outcome.ExitCode);
+  EXPECT_NE(std::string::npos, outcome.Err.find("empty.tipp/index.json")) << outcome.Err;
 }
 
 TEST_F(TippUgrid, IsPartitionedWithItsSteps)
