@@ -27,8 +27,6 @@
 #include <exception>
 #include <numeric>
 #include <stdexcept>
-#include <string>
-#include <vector>
 
 using tipp::arrayOf;
 using tipp::copyTo;

@@ -5,7 +5,6 @@
 #include "Constraints/ResolveCrossings.h"
 #include "Constraints/TableConstraints.h"
 #include "Files/IOError.h"
-#include "Files/OutputFile.h"
 #include "Files/RequireApart.h"
 #include "OutOfCore/OutOfCoreOptions.h"
 #include "OutOfCore/OutOfCoreTriangulation.h"

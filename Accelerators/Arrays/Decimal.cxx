@@ -4,7 +4,6 @@
 #include "Arrays/ShortestText.h"
 #include "Predicates/ExactArithmetic.h"
 
-#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstdlib>

@@ -4,8 +4,6 @@
 #include "vtkSetGet.h"
 #include "vtkType.h"
 
-#include <type_traits>
-
 namespace tipp
 {
 namespace

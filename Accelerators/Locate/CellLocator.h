@@ -4,7 +4,6 @@
 
 #include "Locate/BoxTree.h"
 #include "Locate/Locations.h"
-#include "Locate/MortonOrder.h"
 #include "Predicates/ExactPredicates.h"
 #include "Predicates/Geometry.h"
 #include "Resample/CellKey.h"
@@ -16,7 +15,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <mutex>
 #include <utility>

@@ -6,7 +6,6 @@
 #include "Parallel/ParallelFor.h"
 
 #include <atomic>
-#include <memory>
 #include <mutex>
 #include <type_traits>
 #include <utility>

@@ -6,7 +6,6 @@
 #include "Predicates/Vectors.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace tipp
 {

@@ -7,7 +7,6 @@
 #include <condition_variable>
 #include <exception>
 #include <limits>
-#include <memory>
 #include <thread>
 #include <utility>
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Partition/ClassifyCells.h"
 
-#include "OpenCL/Devices.h"
 #include "Parallel/ParallelFor.h"
 #include "Predicates/ExactPredicates3.h"
 

@@ -4,9 +4,6 @@
 #include "Predicates/Dyadic.h"
 #include "Predicates/Vectors.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <vector>
 
 namespace tipp

@@ -4,7 +4,6 @@
 
 #include "Predicates/Geometry.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>

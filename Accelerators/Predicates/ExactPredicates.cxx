@@ -5,9 +5,6 @@
 #include "Predicates/ExactArithmetic.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstddef>
 #include <cstdint>
 
 namespace tipp

@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Resample/ClaimSamples.h"
 
-#include "Parallel/ParallelFor.h"
 #include "Parallel/Sort.h"
 #include "Resample/CellVisitor.h"
-#include "Resample/Lattice.h"
 #include "Resample/NearBorder.h"
 #include "Resample/SamplingAccess.h"
-#include "Resample/SimplexMesh.h"
 
 #include <algorithm>
 #include <functional>
 #include <utility>
-#include <vector>
 
 namespace tipp
 {

@@ -8,7 +8,6 @@
 #include "vtkTIPPFiltersModule.h"
 
 #include <cstddef>
-#include <cstdint>
 #include <utility>
 #include <vector>
 

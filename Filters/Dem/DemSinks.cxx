@@ -2,7 +2,6 @@
 #include "Dem/DemSinks.h"
 
 #include "Constraints/OnDisk/ConstrainedStream.h"
-#include "Dem/TerrainSampler.h"
 #include "Files/IOError.h"
 #include "OutOfCore/ScratchFiles.h"
 #include "Resample/Claims.h"
@@ -11,12 +10,10 @@
 #include "Triangulation/PointsView.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <filesystem>
 #include <map>
 #include <tuple>
-#include <utility>
 
 namespace tipp
 {

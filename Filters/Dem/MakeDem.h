@@ -4,12 +4,10 @@
 
 #include "Constraints/TableConstraints.h"
 #include "Dem/TerrainSampler.h"
-#include "Dem/TileStore.h"
 #include "OutOfCore/OutOfCoreOptions.h"
 #include "Points/ReadPoints.h"
 #include "Predicates/Geometry.h"
 #include "Triangulation/ResolveDuplicates.h"
-#include "Triangulation/Triangulate.h"
 #include "vtkTIPPFiltersModule.h"
 
 #include <cstdint>

@@ -4,7 +4,6 @@
 #include "Arrays/Concatenated.h"
 #include "Constraints/Insertion/CrossedPart.h"
 #include "Parallel/ParallelFor.h"
-#include "Parallel/Sort.h"
 #include "Ranks/Archive.h"
 
 #include <algorithm>

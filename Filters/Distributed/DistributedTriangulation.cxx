@@ -7,7 +7,6 @@
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Stopwatch.h"
 #include "Triangulation/Dataflow.h"
-#include "Triangulation/PointBuckets.h"
 #include "Triangulation/TriangleSink.h"
 
 #include <cmath>

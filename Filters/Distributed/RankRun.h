@@ -8,7 +8,6 @@
 #include "Distributed/PointExchange.h"
 #include "Distributed/SharedInitialMesh.h"
 #include "Engine/RankEngine.h"
-#include "Parallel/Sort.h"
 #include "Triangulation/Dataflow.h"
 
 #include <algorithm>

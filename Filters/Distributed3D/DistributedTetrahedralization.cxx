@@ -4,12 +4,10 @@
 #include "Arrays/Concatenated.h"
 #include "Distributed/DistributedTriangulation.h"
 #include "Distributed/NeighborCells.h"
-#include "Distributed3D/Plan3.h"
 #include "Distributed3D/RankRun3.h"
 #include "Parallel/ParallelFor.h"
 #include "Triangulation3D/OrderCells.h"
 
-#include <algorithm>
 #include <limits>
 #include <memory>
 #include <stdexcept>

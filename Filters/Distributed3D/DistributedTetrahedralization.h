@@ -7,7 +7,6 @@
 #include "Distributed3D/Plan3.h"
 #include "Predicates/Geometry.h"
 #include "Ranks/Communicator.h"
-#include "Triangulation3D/Partitions3.h"
 #include "Triangulation3D/Tetrahedralize.h"
 #include "vtkTIPPFiltersModule.h"
 

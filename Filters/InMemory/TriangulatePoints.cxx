@@ -2,17 +2,12 @@
 #include "InMemory/TriangulatePoints.h"
 
 #include "Arrays/FindNeighbors.h"
-#include "Constraints/ConstraintEdges.h"
 #include "Constraints/Insertion/KeepInside.h"
-#include "Constraints/Insertion/TriangulateConstrained.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Stopwatch.h"
 #include "Statistics/RunStatistics.h"
 #include "Triangulation/MergeClose.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <utility>

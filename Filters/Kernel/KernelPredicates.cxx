@@ -2,7 +2,6 @@
 #include "Kernel/KernelPredicates.h"
 
 #include "Predicates/ExactArithmetic.h"
-#include "Predicates/ExactPredicates.h"
 
 #include <algorithm>
 #include <cmath>

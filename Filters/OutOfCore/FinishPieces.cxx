@@ -4,10 +4,8 @@
 #include "Files/OutputFile.h"
 #include "Parallel/Sort.h"
 #include "Partitioned/FinishedPieces.h"
-#include "Partitioned/GrowingPiece.h"
 #include "Partitioned/PieceFile.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace tipp

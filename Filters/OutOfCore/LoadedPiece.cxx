@@ -2,7 +2,6 @@
 #include "OutOfCore/LoadedPiece.h"
 
 #include "OutOfCore/FinishPieces.h"
-#include "OutOfCore/OutOfCoreOptions.h"
 #include "Partitioned/GrowingPiece.h"
 #include "Triangulation/PointsView.h"
 #include "Triangulation/TriangleSink.h"

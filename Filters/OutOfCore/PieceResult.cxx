@@ -3,8 +3,6 @@
 
 #include "Files/IOError.h"
 #include "Files/OutputFile.h"
-#include "OutOfCore/ScratchFiles.h"
-#include "Partitioned/GrowingPiece.h"
 
 #include <filesystem>
 #include <mutex>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OutOfCore/PieceRun.h"
 
-#include "Engine/PartitionSchedule.h"
 #include "Engine/RankEngine.h"
 #include "OutOfCore/FinishPieces.h"
 #include "OutOfCore/LoadedPiece.h"

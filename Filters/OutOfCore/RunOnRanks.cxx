@@ -2,7 +2,6 @@
 #include "OutOfCore/RunOnRanks.h"
 
 #include "Files/IOError.h"
-#include "Files/OutputFile.h"
 #include "Parallel/Stopwatch.h"
 
 #include <filesystem>

@@ -4,8 +4,6 @@
 #include "Files/IOError.h"
 #include "Files/OutputFile.h"
 #include "Partitioned/FinishedPieces.h"
-#include "Partitioned/PieceFile.h"
-#include "Partitioned/PieceFormat.h"
 
 namespace tipp
 {

@@ -3,7 +3,6 @@
 
 #include "Files/IOError.h"
 #include "OutOfCore/LoadedPiece.h"
-#include "OutOfCore/SpilledSegments.h"
 
 #include <algorithm>
 

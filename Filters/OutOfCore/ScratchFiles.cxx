@@ -4,12 +4,10 @@
 #include "Files/Checksum.h"
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
-#include "Files/OutputFile.h"
 
 #include <algorithm>
 #include <filesystem>
 #include <sys/stat.h>
-#include <vector>
 
 namespace tipp
 {

@@ -5,7 +5,6 @@
 #include "Files/OutputFile.h"
 #include "Files/PendingOutput.h"
 #include "Files/WorkFolder.h"
-#include "Partitioned/FinishedPieces.h"
 #include "Ranks/Archive.h"
 #include "vtkTIPPFiltersModule.h"
 

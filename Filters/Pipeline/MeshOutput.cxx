@@ -23,7 +23,6 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <limits>
 #include <numeric>
 #include <stdexcept>
 #include <utility>

@@ -5,7 +5,6 @@
 #include "Constraints/ConstraintEdges.h"
 #include "Constraints/NearSegments.h"
 #include "Constraints/PositionIndex.h"
-#include "Constraints/ResolveCrossings.h"
 #include "Constraints/SegmentTree.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Sort.h"

@@ -8,7 +8,6 @@
 #include <cstring>
 #include <numeric>
 #include <type_traits>
-#include <utility>
 
 namespace tipp
 {

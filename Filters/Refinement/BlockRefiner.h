@@ -8,7 +8,6 @@
 #include "Refinement/RefinementRules.h"
 
 #include <array>
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <vector>

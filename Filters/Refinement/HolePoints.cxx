@@ -9,7 +9,6 @@
 #include <cstddef>
 #include <optional>
 #include <tuple>
-#include <utility>
 
 namespace tipp
 {

@@ -12,12 +12,10 @@
 #include <atomic>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <memory>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
-#include <vector>
 
 namespace tipp
 {

@@ -4,7 +4,6 @@
 
 #include "Parallel/ParallelFor.h"
 #include "Predicates/Geometry.h"
-#include "Predicates/Vectors.h"
 
 #include <algorithm>
 #include <array>

@@ -7,8 +7,6 @@
 #include "Triangulation/PointsView.h"
 #include "vtkTIPPFiltersModule.h"
 
-#include <cstdint>
-
 namespace tipp
 {
 

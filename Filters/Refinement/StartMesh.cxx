@@ -6,7 +6,6 @@
 #include "Predicates/ExactPredicates.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>

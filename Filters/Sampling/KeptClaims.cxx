@@ -5,7 +5,6 @@
 #include "Resample/ClaimSamples.h"
 
 #include <cstddef>
-#include <utility>
 
 namespace tipp
 {

@@ -12,12 +12,8 @@
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
-#include "vtkSmartPointer.h"
 
-#include <algorithm>
-#include <cmath>
 #include <stdexcept>
-#include <string>
 
 namespace tipp
 {

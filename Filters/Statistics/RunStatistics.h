@@ -7,7 +7,6 @@
 #include "Distributed3D/DistributedTetrahedralization.h"
 #include "OutOfCore/OutOfCoreOptions.h"
 #include "OutOfCore/OutOfCoreTetrahedralization.h"
-#include "Triangulation/Triangulate.h"
 #include "Triangulation3D/Tetrahedralize.h"
 #include "vtkTIPPFiltersModule.h"
 

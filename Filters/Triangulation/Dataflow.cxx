@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Triangulation/Dataflow.h"
 
-#include "Predicates/ExactPredicates.h"
-
-#include <algorithm>
 #include <cmath>
 
 namespace tipp

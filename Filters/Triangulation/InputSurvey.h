@@ -6,7 +6,6 @@
 #include "Triangulation/StreamSampler.h"
 #include "vtkTIPPFiltersModule.h"
 
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 

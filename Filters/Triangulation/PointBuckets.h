@@ -3,7 +3,6 @@
 #define tippPointBuckets_h
 
 #include "Arrays/Buffer.h"
-#include "Kernel/Pairs.h"
 #include "Parallel/CountingSort.h"
 #include "Parallel/ParallelFor.h"
 #include "Predicates/Geometry.h"

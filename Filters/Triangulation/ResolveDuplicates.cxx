@@ -2,7 +2,6 @@
 #include "Triangulation/ResolveDuplicates.h"
 
 #include "Files/IOError.h"
-#include "Points/ReadPoints.h"
 
 #include <algorithm>
 #include <cmath>

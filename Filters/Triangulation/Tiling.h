@@ -11,7 +11,6 @@
 #include "Triangulation/PointsView.h"
 #include "vtkTIPPFiltersModule.h"
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>

@@ -5,7 +5,6 @@
 #include "Engine/Inbox.h"
 #include "Engine/PartitionSchedule.h"
 #include "Kernel/DelaunayKernel3.h"
-#include "Predicates/Circumball.h"
 #include "Triangulation/Hull.h"
 #include "Triangulation/Triangulate.h"
 #include "Triangulation3D/Partitions3.h"
@@ -13,7 +12,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 namespace tipp

@@ -5,8 +5,6 @@
 #include "Parallel/ParallelFor.h"
 
 #include <algorithm>
-#include <array>
-#include <cstdint>
 #include <utility>
 
 namespace tipp

@@ -9,7 +9,6 @@
 #include "Triangulation/Regions.h"
 #include "vtkTIPPFiltersModule.h"
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>

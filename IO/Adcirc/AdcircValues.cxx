@@ -4,9 +4,7 @@
 #include "Adcirc/ListDirectedRows.h"
 #include "Files/IOError.h"
 
-#include <string>
 #include <utility>
-#include <vector>
 
 namespace tipp
 {

@@ -4,17 +4,14 @@
 #include "Adcirc/AdcircGrid.h"
 #include "Files/Formats.h"
 #include "Files/IOError.h"
-#include "Files/InputFile.h"
 #include "Files/TextFile.h"
 #include "Models/TriangleFiles.h"
 #include "Points/Longitudes.h"
-#include "Points/ReadPoints.h"
 #ifdef TIPP_HAVE_GDAL
 #include "Gdal/GdalLibrary.h"
 #endif
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>

@@ -8,7 +8,6 @@
 #include "vtkNew.h"
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>

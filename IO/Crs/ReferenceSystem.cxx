@@ -10,10 +10,8 @@
 #endif
 
 #include <algorithm>
-#include <cctype>
 #include <map>
 #include <mutex>
-#include <vector>
 
 namespace tipp
 {

@@ -9,7 +9,6 @@
 #include <cerrno>
 #include <csignal>
 #include <exception>
-#include <string>
 
 #include <sys/wait.h>
 #include <unistd.h>

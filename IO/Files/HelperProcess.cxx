@@ -11,7 +11,6 @@
 #include <cstring>
 #include <exception>
 #include <fstream>
-#include <utility>
 
 #include <fcntl.h>
 #include <poll.h>

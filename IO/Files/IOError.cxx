@@ -4,7 +4,6 @@
 #include "Files/TemporaryPaths.h"
 
 #include <algorithm>
-#include <cctype>
 
 namespace tipp
 {

@@ -3,7 +3,6 @@
 
 #include "Files/IOError.h"
 
-#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>

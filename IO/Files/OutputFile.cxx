@@ -2,17 +2,13 @@
 #include "Files/OutputFile.h"
 
 #include "Files/IOError.h"
-#include "Files/InputFile.h"
 #include "Files/MemoryLimits.h"
 #include "Files/Platform.h"
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <filesystem>
-#include <system_error>
 #include <utility>
-#include <vector>
 
 #include <fcntl.h>
 #include <sys/file.h>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Files/PagedMemory.h"
 
-#include "Files/IOError.h"
 #include "Files/OutputFile.h"
 #include "Files/Platform.h"
 
@@ -10,7 +9,6 @@
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
-#include <mutex>
 #include <new>
 #include <set>
 #include <utility>

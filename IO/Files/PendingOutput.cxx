@@ -4,13 +4,11 @@
 #include "Files/Formats.h"
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
-#include "Files/OutputFile.h"
 #include "Files/Platform.h"
 
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <system_error>

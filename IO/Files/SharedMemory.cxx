@@ -4,7 +4,6 @@
 #include "Files/IOError.h"
 #include "Files/Platform.h"
 
-#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>

@@ -7,9 +7,7 @@
 #include <array>
 #include <cctype>
 #include <charconv>
-#include <cstdint>
 #include <functional>
-#include <string>
 
 namespace tipp
 {

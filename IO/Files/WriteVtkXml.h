@@ -3,7 +3,6 @@
 #define tippWriteVtkXml_h
 
 #include "Arrays/Scalar.h"
-#include "Files/OutputFile.h"
 #include "Files/PendingOutput.h"
 #include "vtkTIPPIOModule.h"
 

@@ -2,7 +2,6 @@
 #include "Flat/FlatMesh.h"
 
 #include "Files/IOError.h"
-#include "Files/InputFile.h"
 #include "Files/PendingOutput.h"
 #include "Npy/NpyFile.h"
 #include "Parallel/ParallelFor.h"
@@ -16,7 +15,6 @@
 #include <iterator>
 #include <limits>
 #include <stdexcept>
-#include <vector>
 
 namespace tipp
 {

@@ -7,7 +7,6 @@
 #include "Files/RawArray.h"
 #include "vtkTIPPIOModule.h"
 
-#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>

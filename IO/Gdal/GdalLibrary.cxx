@@ -6,15 +6,11 @@
 #include "Files/InputFile.h"
 
 #include <algorithm>
-#include <array>
-#include <atomic>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <sstream>
-#include <string>
-#include <type_traits>
 #include <vector>
 
 #include <dlfcn.h>

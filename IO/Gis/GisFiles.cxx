@@ -2,13 +2,10 @@
 #include "Gis/GisFiles.h"
 
 #include "Files/IOError.h"
-#include "Files/PendingOutput.h"
 #ifdef TIPP_HAVE_GDAL
 #include "Crs/ImportCrs.h"
 #include "Gdal/GdalLibrary.h"
 #endif
-
-#include <cstdint>
 
 namespace tipp
 {

@@ -10,7 +10,6 @@
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Poll.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Laz/LazChunk.h"
 
-#include "Laz/IntegerCoder.h"
-
 #include <cstring>
 
 namespace tipp

@@ -5,7 +5,6 @@
 #include "Laz/IntegerCoder.h"
 
 #include <algorithm>
-#include <cstring>
 #include <memory>
 #include <string>
 #include <utility>

@@ -2,9 +2,7 @@
 #include "Loading/ArrayFiles.h"
 
 #include "Files/IOError.h"
-#include "Parallel/ParallelFor.h"
 
-#include <algorithm>
 #include <cstring>
 #include <limits>
 #include <map>

@@ -5,7 +5,6 @@
 #include "Parallel/ParallelFor.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace tipp
 {

@@ -2,8 +2,6 @@
 #ifndef tippBlockCache_h
 #define tippBlockCache_h
 
-#include "Loading/ArrayFiles.h"
-
 #include <cstddef>
 #include <cstdint>
 #include <limits>

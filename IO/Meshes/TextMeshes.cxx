@@ -6,7 +6,6 @@
 #include "Files/TextFile.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace tipp
 {

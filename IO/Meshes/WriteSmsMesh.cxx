@@ -5,7 +5,6 @@
 #include "Points/ReadPoints.h"
 
 #include <string>
-#include <vector>
 
 namespace tipp
 {

@@ -6,7 +6,6 @@
 #include "Files/RawArray.h"
 #include "Files/TextFile.h"
 #include "Netcdf/ClassicHeader.h"
-#include "Netcdf/NetcdfLibrary.h"
 #include "Netcdf/NetcdfValues.h"
 #include "Ranks/Archive.h"
 
@@ -14,7 +13,6 @@
 #include <cmath>
 #include <cstring>
 #include <exception>
-#include <limits>
 #include <stdexcept>
 #include <utility>
 

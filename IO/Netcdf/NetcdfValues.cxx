@@ -4,7 +4,6 @@
 #include "Files/RawValues.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace tipp
 {

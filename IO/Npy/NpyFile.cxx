@@ -2,7 +2,6 @@
 #include "Npy/NpyFile.h"
 
 #include "Files/IOError.h"
-#include "Files/InputFile.h"
 #include "Files/RawArray.h"
 #include "Parallel/Poll.h"
 

@@ -6,7 +6,6 @@
 #include "Partitioned/PieceFile.h"
 
 #include <algorithm>
-#include <cstring>
 
 namespace tipp
 {

@@ -3,17 +3,13 @@
 
 #include "Files/Checksum.h"
 #include "Files/Formats.h"
-#include "Files/IOError.h"
 #include "Files/InputFile.h"
-#include "Files/PendingOutput.h"
 #include "Files/TextFile.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
 #include <iterator>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <optional>

@@ -10,7 +10,6 @@
 #include <cstring>
 #include <limits>
 #include <set>
-#include <string>
 #include <utility>
 
 namespace tipp

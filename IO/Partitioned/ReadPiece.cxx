@@ -6,15 +6,12 @@
 #include "Partitioned/PieceFile.h"
 
 #include <algorithm>
-#include <cstddef>
-#include <cstdint>
 #include <cstring>
 #include <limits>
 #include <map>
 #include <numeric>
 #include <optional>
 #include <string>
-#include <vector>
 
 namespace tipp
 {

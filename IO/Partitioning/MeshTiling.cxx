@@ -6,17 +6,12 @@
 #include "Files/InputFile.h"
 #include "Files/OutputFile.h"
 #include "Files/TextFile.h"
-#include "Flat/FlatMesh.h"
 #include "Parallel/ParallelFor.h"
 
-#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numeric>
-#include <optional>
-#include <string>
 #include <string_view>
-#include <vector>
 
 namespace tipp
 {

@@ -22,9 +22,6 @@
 #include <filesystem>
 #include <limits>
 #include <memory>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace tipp
 {

@@ -5,7 +5,6 @@
 #include "vtkTIPPIOModule.h"
 
 #include <cmath>
-#include <cstddef>
 #include <string>
 #include <vector>
 

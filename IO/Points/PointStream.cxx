@@ -3,7 +3,6 @@
 
 #include "Crs/StatedCodes.h"
 #include "Files/IOError.h"
-#include "Files/InputFile.h"
 #include "Files/Platform.h"
 #include "Files/TextFile.h"
 #include "Points/Longitudes.h"

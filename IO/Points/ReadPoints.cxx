@@ -8,11 +8,8 @@
 #include "Npy/NpyFile.h"
 #include "Points/Longitudes.h"
 
-#include <algorithm>
 #include <array>
-#include <functional>
 #include <limits>
-#include <optional>
 #include <stdexcept>
 #include <utility>
 

@@ -6,10 +6,8 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cstdint>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace tipp
 {

@@ -2,14 +2,12 @@
 #include "Points/ReadPoints.h"
 
 #include "Files/IOError.h"
-#include "Files/InputFile.h"
 #include "Files/TextFile.h"
 #include "Points/TableRows.h"
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <utility>

@@ -7,7 +7,6 @@
 #include "Ranks/Archive.h"
 #include "vtkTIPPIOModule.h"
 
-#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <deque>

@@ -2,8 +2,6 @@
 #include "Ranks/Spill.h"
 
 #include "Files/IOError.h"
-#include "Files/InputFile.h"
-#include "Parallel/ParallelFor.h"
 
 #include <array>
 #include <cstring>

@@ -3,20 +3,13 @@
 
 #include "Files/Formats.h"
 #include "Files/IOError.h"
-#include "Files/InputFile.h"
-#include "Files/OutputFile.h"
 #include "Files/TextFile.h"
 #include "Files/VtkXml.h"
 #include "Npy/NpyFile.h"
 
-#include <algorithm>
-#include <cmath>
-#include <cstdio>
-#include <limits>
 #include <map>
 #include <mutex>
 #include <stdexcept>
-#include <string>
 
 namespace tipp
 {

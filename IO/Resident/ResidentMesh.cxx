@@ -3,7 +3,6 @@
 
 #include "Files/IOError.h"
 #include "Locate/CellLocator.h"
-#include "Locate/MortonOrder.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Sort.h"
 

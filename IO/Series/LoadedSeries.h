@@ -6,7 +6,6 @@
 #include "Series/CellSeries.h"
 
 #include <cstddef>
-#include <cstdint>
 #include <string>
 #include <vector>
 

@@ -3,9 +3,6 @@
 
 #include "Files/IOError.h"
 
-#include <cstdint>
-#include <vector>
-
 namespace tipp
 {
 void setMeshDimensions(const std::string& path, const NetcdfContent& content, NetcdfMesh& mesh,

@@ -2,7 +2,6 @@
 #include "Series/NetcdfSeries.h"
 
 #include "Files/IOError.h"
-#include "Files/TextFile.h"
 #include "Netcdf/NetcdfFile.h"
 #include "Netcdf/NetcdfHook.h"
 #include "Series/CellSeries.h"

@@ -3,7 +3,6 @@
 
 #include "Files/IOError.h"
 
-#include <algorithm>
 #include <iterator>
 #include <sstream>
 

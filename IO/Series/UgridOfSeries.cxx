@@ -3,7 +3,6 @@
 #include "Series/WriteUgrid.h"
 
 #include <memory>
-#include <utility>
 
 namespace tipp
 {

@@ -6,10 +6,8 @@
 #include "vtkCellType.h"
 #include "vtkDataArray.h"
 #include "vtkGenericCell.h"
-#include "vtkSmartPointer.h"
 #include "vtkTypeInt64Array.h"
 
-#include <algorithm>
 #include <array>
 
 namespace tipp

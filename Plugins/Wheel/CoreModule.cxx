@@ -6,7 +6,6 @@
 
 #include <nanobind/stl/string.h>
 
-#include <cstdint>
 #include <new>
 #include <stdexcept>
 #include <type_traits>

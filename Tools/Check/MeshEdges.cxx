@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Check/MeshEdges.h"
 
-#include <algorithm>
 #include <tuple>
 
 namespace tipp

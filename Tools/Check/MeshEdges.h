@@ -5,7 +5,6 @@
 #include "Check/ExactTests.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <vector>
 

@@ -7,7 +7,6 @@
 #include "Check/MeshEdges.h"
 
 #include <array>
-#include <cstdint>
 #include <optional>
 #include <vector>
 

@@ -28,7 +28,6 @@
 #include <filesystem>
 #include <limits>
 #include <map>
-#include <memory>
 #include <stdexcept>
 #include <string>
 #include <utility>

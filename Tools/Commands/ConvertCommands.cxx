@@ -6,7 +6,6 @@
 #include "Commands/VtkFiles.h"
 #include "Console/Process.h"
 #include "Files/Formats.h"
-#include "Files/OutputFile.h"
 #include "Files/PendingOutput.h"
 #include "Files/RequireApart.h"
 #include "Flat/FlatMesh.h"

@@ -9,9 +9,6 @@
 #include "Files/InputFile.h"
 #include "Files/MemoryLimits.h"
 #include "InMemory/TriangulateTable.h"
-#include "Parallel/Poll.h"
-#include "Points/ReadPoints.h"
-#include "Predicates/SensibleRange.h"
 #include "Raster/RasterValues.h"
 #include "Refinement/HolePoints.h"
 #include "Refinement/MeshPoints.h"
@@ -21,7 +18,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <memory>
 #include <utility>

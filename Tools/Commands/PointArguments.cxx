@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/PointArguments.h"
 
-#include "Files/Formats.h"
 #include "Files/IOError.h"
 #include "Files/TemporaryPaths.h"
 #include "Files/TextFile.h"
 #include "Gis/GisFiles.h"
 #include "Predicates/SensibleRange.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,13 +15,9 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <limits>
 #include <map>
-#include <optional>
 #include <sstream>
 #include <stdexcept>
-#include <string>
-#include <vector>
 
 namespace tipp
 {

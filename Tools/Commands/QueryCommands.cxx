@@ -9,7 +9,6 @@
 #include "Files/Formats.h"
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
-#include "Files/OutputFile.h"
 #include "Files/PendingOutput.h"
 #include "Files/Platform.h"
 #include "Files/TextFile.h"

@@ -2,10 +2,8 @@
 #include "Commands/Report.h"
 
 #include "Console/Process.h"
-#include "Files/PendingOutput.h"
 #include "Files/Platform.h"
 #include "Files/RequireApart.h"
-#include "OutOfCore/OutOfCoreOptions.h"
 #include "OutOfCore/OutOfCoreTriangulation.h"
 #include "Series/WriteUgrid.h"
 

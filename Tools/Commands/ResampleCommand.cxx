@@ -8,8 +8,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include <string>
-
 namespace tipp
 {
 namespace

@@ -5,7 +5,6 @@
 #include "Commands/Report.h"
 #include "Commands/ResampleArguments.h"
 #include "Console/Process.h"
-#include "Crs/ReferenceSystem.h"
 #include "Files/IOError.h"
 #include "Parallel/Stopwatch.h"
 #include "Raster/RasterFile.h"
@@ -15,7 +14,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <utility>
 
 namespace tipp
 {

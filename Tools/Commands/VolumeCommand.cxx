@@ -4,7 +4,6 @@
 #include "Commands/Report.h"
 #include "Commands/VisitSurface.h"
 #include "Console/Process.h"
-#include "Files/IOError.h"
 #include "Parallel/ParallelFor.h"
 #include "Partitioned/PartitionedMesh.h"
 #include "Predicates/Geometry.h"

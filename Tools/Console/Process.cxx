@@ -15,11 +15,9 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <exception>
 #include <mutex>
 #include <new>
-#include <stdexcept>
 #include <thread>
 
 namespace tipp

@@ -6,7 +6,6 @@
 #include "Constraints/Insertion/ConstrainedMesh.h"
 #include "Constraints/Insertion/SegmentInserter.h"
 #include "Predicates/Geometry.h"
-#include "Triangulation/Triangulate.h"
 
 #include <algorithm>
 #include <array>

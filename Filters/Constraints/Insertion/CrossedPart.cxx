@@ -3,14 +3,11 @@
 
 #include "Constraints/ConstraintEdges.h"
 #include "Constraints/Insertion/ConstraintJobs.h"
-#include "Constraints/Insertion/CrossedTriangles.h"
 #include "Constraints/PositionIndex.h"
 #include "Constraints/SurfaceValues.h"
 #include "Parallel/Sort.h"
 #include "Triangulation/TriangleSink.h"
 
-#include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <optional>
 #include <utility>

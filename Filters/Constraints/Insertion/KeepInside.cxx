@@ -2,14 +2,12 @@
 #include "Constraints/Insertion/KeepInside.h"
 
 #include "Arrays/FindNeighbors.h"
-#include "Constraints/ConstraintEdges.h"
 #include "Constraints/Insertion/TriangulateConstrained.h"
 #include "Constraints/SurfaceValues.h"
 #include "Predicates/ExactPredicates.h"
 #include "Triangulation/TriangleSink.h"
 
 #include <algorithm>
-#include <cstddef>
 #include <sstream>
 #include <stdexcept>
 #include <utility>

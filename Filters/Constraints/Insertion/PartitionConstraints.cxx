@@ -10,7 +10,6 @@
 #include "Parallel/Sort.h"
 
 #include <algorithm>
-#include <array>
 #include <cstring>
 #include <functional>
 #include <utility>

@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Constraints/Insertion/TriangulateConstrained.h"
 
-#include "Constraints/ConstraintEdges.h"
 #include "Constraints/Insertion/ConstraintJobs.h"
 #include "Constraints/Insertion/CrossedTriangles.h"
 #include "Constraints/Insertion/PartitionConstraints.h"
 #include "Constraints/SegmentTree.h"
-#include "Files/IOError.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Sort.h"
 #include "Parallel/Stopwatch.h"
-#include "Points/Longitudes.h"
-#include "Triangulation/TriangleSink.h"
 
 #include <algorithm>
 #include <cstddef>

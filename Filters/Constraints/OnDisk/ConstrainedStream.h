@@ -11,7 +11,6 @@
 #include "Points/ReadPoints.h"
 #include "vtkTIPPFiltersModule.h"
 
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
