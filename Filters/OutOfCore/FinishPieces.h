@@ -3,7 +3,6 @@
 #define tippFinishPieces_h
 
 #include "OutOfCore/PiecePlan.h"
-#include "OutOfCore/PiecePlan3.h"
 #include "OutOfCore/PieceResult.h"
 #include "Parallel/ParallelFor.h"
 #include "Partitioned/GrowingPiece.h"
@@ -271,6 +270,9 @@ private:
 /// IOError.
 std::vector<FinishedPiece> finishPieces(
   const PieceWork& work, int threads, const Report& report, PieceFigures& figures);
+/// The same for pieces of tetrahedra. `limit`: bytes of memory for the hull repair.
+VTKTIPPFILTERS_EXPORT std::vector<FinishedPiece> finishPieces(const PieceWork3& work,
+  std::uint64_t limit, int threads, const Report& report, PieceFigures& figures);
 
 /// Writes the global ids of all cells, and sets mesh.Cells to their number. Throws IOError.
 void numberCells(PartitionedMesh& mesh, std::vector<FinishedPiece>& pieces, const Report& report);

@@ -2,16 +2,9 @@
 #include "OutOfCore/PiecePlan.h"
 
 #include "Files/IOError.h"
-#include "OutOfCore/OutOfCoreOptions.h"
-#include "OutOfCore/ScratchFiles.h"
-#include "OutOfCore/SpilledPoints.h"
-#include "Triangulation/BoundaryCells.h"
 #include "Triangulation/InitialMesh.h"
-#include "Triangulation/InputSurvey.h"
-#include "Triangulation/Tiling.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace tipp
 {
@@ -205,13 +198,8 @@ void PiecePlan::numberPartitions()
 void PiecePlan::chooseInitialPoints(const InputSurvey& survey, int pointsPerPartition)
 {
   this->Initial.clear();
-  std::vector<std::vector<InitialPoint>> sampled(std::size_t(this->Partitions.size()));
-  for (const SampledPoint& p : survey.Sample)
-  {
-    const PartitionIndex partition = this->Partitions.locate(p.Position);
-    sampled[std::size_t(partition)].push_back({ p.Id, p.Position, partition });
-  }
-  for (const std::vector<InitialPoint>& points : sampled)
+  for (const std::vector<InitialPoint>& points :
+    groupByPartition<2>(survey.Sample, this->Partitions))
   {
     const std::vector<Point2> positions = positionsOf(points);
     for (const std::size_t i : tipp::chooseInitialPoints(
@@ -220,8 +208,7 @@ void PiecePlan::chooseInitialPoints(const InputSurvey& survey, int pointsPerPart
       this->Initial.push_back(points[i]);
     }
   }
-  std::sort(this->Initial.begin(), this->Initial.end(),
-    [](const InitialPoint& a, const InitialPoint& b) { return a.Id < b.Id; });
+  sortById(this->Initial);
 }
 
 std::vector<BoundaryVertex> PiecePlan::initialVertices() const

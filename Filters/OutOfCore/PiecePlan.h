@@ -3,14 +3,15 @@
 #define tippPiecePlan_h
 
 #include "Engine/PartitionSchedule.h"
-#include "OutOfCore/InitialPoint.h"
 #include "OutOfCore/OutOfCoreOptions.h"
 #include "OutOfCore/SpilledPoints.h"
+#include "Predicates/Geometry.h"
 #include "Triangulation/BoundaryCells.h"
 #include "Triangulation/InputSurvey.h"
 #include "Triangulation/Tiling.h"
 #include "vtkTIPPFiltersModule.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -29,6 +30,42 @@ namespace tipp
 inline std::size_t numberInMesh(PartitionIndex piece, PartitionIndex pieces)
 {
   return static_cast<std::size_t>(pieces - 1 - piece);
+}
+
+/// A point of the initial mesh of a run out of core in D dimensions.
+template <int D>
+struct InitialPointOf
+{
+  std::int64_t Id; ///< index in the stream
+  /// Multiplied by InputSurveyOf::Factor.
+  Point<D> Position;
+  PartitionIndex Partition;
+  std::int32_t Padding = 0;   ///< so that all bytes of a record are defined
+  std::int64_t InPieces = -1; ///< index among all spilled points; -1: not known yet
+};
+
+using InitialPoint = InitialPointOf<2>;
+
+/// Returns the points of a sample by partition.
+template <int D>
+std::vector<std::vector<InitialPointOf<D>>> groupByPartition(
+  const std::vector<SampledPointOf<Point<D>>>& sample, const CutTree<D>& partitions)
+{
+  std::vector<std::vector<InitialPointOf<D>>> groups(std::size_t(partitions.size()));
+  for (const SampledPointOf<Point<D>>& p : sample)
+  {
+    const PartitionIndex partition = partitions.locate(p.Position);
+    groups[std::size_t(partition)].push_back({ p.Id, p.Position, partition });
+  }
+  return groups;
+}
+
+/// Sorts points by their index in the stream.
+template <int D>
+void sortById(std::vector<InitialPointOf<D>>& points)
+{
+  std::sort(points.begin(), points.end(),
+    [](const InitialPointOf<D>& a, const InitialPointOf<D>& b) { return a.Id < b.Id; });
 }
 
 /// How points are read if memory is limited.

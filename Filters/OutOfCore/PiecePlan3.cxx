@@ -117,13 +117,7 @@ PiecePlan3::PiecePlan3(const InputSurvey3& survey, const MemoryPlan3& memory, st
 void PiecePlan3::chooseInitialPoints(const InputSurvey3& survey)
 {
   constexpr std::size_t most = 48; // of a piece
-  std::vector<std::vector<InitialPointOf<3>>> sampled(std::size_t(this->pieces()));
-  for (const SampledPointOf<Point3>& p : survey.Sample)
-  {
-    const PartitionIndex piece = this->Pieces.locate(p.Position);
-    sampled[std::size_t(piece)].push_back({ p.Id, p.Position, piece });
-  }
-  for (const std::vector<InitialPointOf<3>>& all : sampled)
+  for (const std::vector<InitialPointOf<3>>& all : groupByPartition<3>(survey.Sample, this->Pieces))
   {
     const std::size_t wanted = std::min(all.size(), most);
     for (std::size_t i = 0; i < wanted; ++i)
@@ -131,8 +125,7 @@ void PiecePlan3::chooseInitialPoints(const InputSurvey3& survey)
       this->Initial.push_back(all[(2 * i + 1) * all.size() / (2 * wanted)]);
     }
   }
-  std::sort(this->Initial.begin(), this->Initial.end(),
-    [](const InitialPointOf<3>& a, const InitialPointOf<3>& b) { return a.Id < b.Id; });
+  sortById(this->Initial);
 }
 
 void PiecePlan3::encloseExtremes(const std::vector<std::int64_t>& starts)

@@ -2,7 +2,6 @@
 #ifndef tippPiecePlan3_h
 #define tippPiecePlan3_h
 
-#include "OutOfCore/InitialPoint.h"
 #include "OutOfCore/PiecePlan.h"
 #include "Triangulation/BoundaryCells.h"
 #include "Triangulation/InputSurvey.h"

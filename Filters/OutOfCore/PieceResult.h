@@ -5,6 +5,7 @@
 #include "Constraints/Insertion/CrossedPart.h"
 #include "OutOfCore/OutOfCoreOptions.h"
 #include "OutOfCore/PiecePlan.h"
+#include "OutOfCore/PiecePlan3.h"
 #include "OutOfCore/ScratchFiles.h"
 #include "OutOfCore/SpilledPoints.h"
 #include "OutOfCore/SpilledSegments.h"
@@ -15,6 +16,7 @@
 #include "Triangulation/Dataflow.h"
 #include "Triangulation/ResolveDuplicates.h"
 #include "Triangulation/Tiling.h"
+#include "Triangulation3D/Dataflow3.h"
 
 #include <array>
 #include <cstddef>
@@ -222,6 +224,12 @@ using BorderTriangles = BorderCells<3>;
 using BordersByOwner = BordersOf<3>;
 using PieceResult = PieceResultOf<3, VertexMessage>;
 using StoredResult = StoredResultOf<3, VertexMessage>;
+
+using BorderCells3 = BorderCells<4>;
+using BordersByOwner3 = BordersOf<4>;
+using PieceResult3 = PieceResultOf<4, VertexMessage3>;
+using StoredResult3 = StoredResultOf<4, VertexMessage3>;
+using PieceWork3 = PieceWorkOf<PiecePlan3, StoredResult3>;
 
 /// The work on pieces of triangles. Pointers are not owned.
 struct PieceWork : PieceWorkOf<PiecePlan, StoredResult>

@@ -2,12 +2,9 @@
 #ifndef tippPieceRun_h
 #define tippPieceRun_h
 
-#include "Engine/PartitionSchedule.h"
 #include "OutOfCore/PiecePlan.h"
 #include "OutOfCore/PieceResult.h"
-#include "Partitioned/FinishedPieces.h"
 #include "Ranks/Communicator.h"
-#include "Triangulation/Dataflow.h"
 
 #include <functional>
 #include <vector>
@@ -15,6 +12,7 @@
 namespace tipp
 {
 
+///@{
 /// Triangulates this rank's pieces that are not done, and writes their results. `isDone` has an
 /// entry for each piece, the same on all ranks. `progress` is called with the fraction of the
 /// points that are triangulated, in the calling thread; false stops the run. May be empty. The
@@ -23,6 +21,10 @@ namespace tipp
 VTKTIPPFILTERS_EXPORT void triangulatePieces(const PieceWork& work, const MemoryPlan& memory,
   int threads, const std::function<bool(double)>& progress, Communicator& ranks,
   const std::vector<char>& isDone);
+VTKTIPPFILTERS_EXPORT void triangulatePieces(const PieceWork3& work, const MemoryPlan3& memory,
+  int threads, const std::function<bool(double)>& progress, Communicator& ranks,
+  const std::vector<char>& isDone);
+///@}
 
 } // namespace tipp
 

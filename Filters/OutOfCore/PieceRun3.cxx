@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "OutOfCore/PieceRun3.h"
+#include "OutOfCore/PieceRun.h"
 
 #include "Engine/PartitionSchedule.h"
 #include "Engine/RankEngine.h"
 #include "Files/IOError.h"
+#include "OutOfCore/FinishPieces.h"
 #include "Parallel/Sort.h"
 
 #include <algorithm>
 #include <chrono>
-#include <condition_variable>
 #include <memory>
 #include <mutex>
-#include <stdexcept>
 #include <unordered_map>
 #include <utility>
 

@@ -6,10 +6,11 @@
 #include "TemporaryFolder.h"
 
 #include "Npy/NpyFile.h"
+#include "OutOfCore/FinishPieces.h"
 #include "OutOfCore/InputPasses.h"
 #include "OutOfCore/PiecePlan3.h"
 #include "OutOfCore/PieceResult.h"
-#include "OutOfCore/PieceRun3.h"
+#include "OutOfCore/PieceRun.h"
 #include "Points/ReadPoints.h"
 #include "Predicates/ExactPredicates3.h"
 
