@@ -266,16 +266,15 @@ private:
   {
     const auto nodesFor = [](std::size_t children) { return (children + Width - 1) / Width; };
     this->Levels.emplace_back(nodesFor(this->Order.size()));
-    forChunks(std::int64_t(this->Levels[0].size()), 1 << 11, threads, {},
-      [&](std::int64_t begin, std::int64_t end, int)
+    forIndices(
+      std::int64_t(this->Levels[0].size()),
+      [&](std::int64_t n)
       {
-        for (std::int64_t n = begin; n < end; ++n)
-        {
-          this->fill(this->Levels[0][std::size_t(n)], std::size_t(n), this->Order.size(),
-            [&](std::size_t child, float(&low)[D], float(&high)[D])
-            { this->roundOutward(boxOf(this->Order[child]), low, high); });
-        }
-      });
+        this->fill(this->Levels[0][std::size_t(n)], std::size_t(n), this->Order.size(),
+          [&](std::size_t child, float(&low)[D], float(&high)[D])
+          { this->roundOutward(boxOf(this->Order[child]), low, high); });
+      },
+      threads, 1 << 11);
     while (this->Levels.back().size() > 1)
     {
       const std::vector<Node>& below = this->Levels.back();

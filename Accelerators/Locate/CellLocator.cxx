@@ -4,9 +4,7 @@
 #include "Locate/CellChoice.h"
 #include "Locate/PointGrid.h"
 
-#include <algorithm>
 #include <type_traits>
-#include <vector>
 
 namespace tipp
 {
@@ -27,14 +25,10 @@ void locateByCells(const Access& access, const SimplexMesh& mesh, const std::int
   const PointGrid<D> grid(usesGrid ? points.Count : 0, threads, at);
   std::vector<typename PointGrid<D>::Position> positions(
     usesGrid ? std::size_t(mesh.PointCount) : 0);
-  forChunks(std::int64_t(positions.size()), 1 << 14, threads, {},
-    [&](std::int64_t begin, std::int64_t end, int)
-    {
-      for (std::int64_t i = begin; i < end; ++i)
-      {
-        positions[std::size_t(i)] = grid.position(access.coordinates(i));
-      }
-    });
+  forIndices(
+    std::int64_t(positions.size()),
+    [&](std::int64_t i) { positions[std::size_t(i)] = grid.position(access.coordinates(i)); },
+    threads, 1 << 14);
   struct PointInCell
   {
     std::int32_t Point;

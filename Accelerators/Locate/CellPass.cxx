@@ -114,14 +114,10 @@ public:
     , MostTests(testsPerItem * (mesh.Cells + points.Count))
     , MostDoubts(8 * std::size_t(points.Count) + 1024)
   {
-    forChunks(std::int64_t(search.size()), 1 << 16, threads, {},
-      [&](std::int64_t begin, std::int64_t end, int)
-      {
-        for (std::int64_t i = begin; i < end; ++i)
-        {
-          this->Claims[std::size_t(i)].store(-1, std::memory_order_relaxed);
-        }
-      });
+    forIndices(
+      std::int64_t(search.size()),
+      [&](std::int64_t i) { this->Claims[std::size_t(i)].store(-1, std::memory_order_relaxed); },
+      threads, 1 << 16);
   }
 
   bool run()

@@ -65,16 +65,15 @@ std::vector<std::int32_t> mortonOrder(
 {
   using CodedBox = std::pair<std::uint64_t, std::int32_t>; // a code and a box; -1: not finite
   std::vector<CodedBox> boxes(static_cast<std::size_t>(count));
-  forChunks(count, 1 << 14, threads, {},
-    [&](std::int64_t begin, std::int64_t end, int)
+  forIndices(
+    count,
+    [&](std::int64_t i)
     {
-      for (std::int64_t i = begin; i < end; ++i)
-      {
-        const Box<D> box = boxOf(i);
-        boxes[std::size_t(i)] = isFinite(box) ? CodedBox{ mortonCode(box, all), std::int32_t(i) }
-                                              : CodedBox{ ~std::uint64_t(0), -1 };
-      }
-    });
+      const Box<D> box = boxOf(i);
+      boxes[std::size_t(i)] = isFinite(box) ? CodedBox{ mortonCode(box, all), std::int32_t(i) }
+                                            : CodedBox{ ~std::uint64_t(0), -1 };
+    },
+    threads, 1 << 14);
   sortInParts(boxes.begin(), boxes.end(), threads);
   std::vector<std::int32_t> order;
   order.reserve(boxes.size());
@@ -99,16 +98,15 @@ std::vector<std::int32_t> nearOrder(std::int64_t count, int threads, const At& a
   const Box<D> all = boundsOf<D>(count, threads, boxOf);
   constexpr std::uint64_t notFinite = ~std::uint64_t(0);
   std::vector<std::uint64_t> words(static_cast<std::size_t>(count));
-  forChunks(count, 1 << 14, threads, {},
-    [&](std::int64_t begin, std::int64_t end, int)
+  forIndices(
+    count,
+    [&](std::int64_t i)
     {
-      for (std::int64_t i = begin; i < end; ++i)
-      {
-        const Box<D> box = boxOf(i);
-        const std::uint64_t code = isFinite(box) ? mortonCode(box, all) << (D == 2 ? 0 : 1) : 0;
-        words[std::size_t(i)] = isFinite(box) ? (code >> 32 << 32) | std::uint64_t(i) : notFinite;
-      }
-    });
+      const Box<D> box = boxOf(i);
+      const std::uint64_t code = isFinite(box) ? mortonCode(box, all) << (D == 2 ? 0 : 1) : 0;
+      words[std::size_t(i)] = isFinite(box) ? (code >> 32 << 32) | std::uint64_t(i) : notFinite;
+    },
+    threads, 1 << 14);
   // Sorts by as many bits as give about one point per key.
   const unsigned lowest = count > 1 << 22 ? 32 : count > 1 << 11 ? 42 : 53;
   sortByUpperHalf(words, threads, lowest);

@@ -10,7 +10,6 @@
 #include <cstdint>
 #include <exception>
 #include <functional>
-#include <memory>
 #include <mutex>
 
 namespace tipp
@@ -126,12 +125,13 @@ void parallelFor(std::int64_t count, int threads, const Work& work)
   forChunks(count, 1, most, {}, [&](std::int64_t i, std::int64_t, int) { work(i); });
 }
 
-/// Calls work(0) ... work(count - 1), in ranges that are large enough for short work, on
-/// usualThreads() or as many as given.
+/// Calls work(0) ... work(count - 1) on usualThreads() or as many as given, in ranges of `chunk`
+/// indices, by default as many as are enough for short work.
 template <typename Work>
-void forIndices(std::int64_t count, const Work& work, int threads = 0)
+void forIndices(
+  std::int64_t count, const Work& work, int threads = 0, std::int64_t chunk = std::int64_t(1) << 13)
 {
-  forChunks(count, 1 << 13, threadCount(threads), {},
+  forChunks(count, chunk, threadCount(threads), {},
     [&](std::int64_t begin, std::int64_t end, int)
     {
       for (std::int64_t i = begin; i < end; ++i)

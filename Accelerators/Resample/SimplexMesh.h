@@ -311,14 +311,9 @@ public:
       return;
     }
     this->Sides.reset(new unsigned char[std::size_t(this->Count)]);
-    forChunks(this->Count, 1 << 16, threads, {},
-      [&](std::int64_t begin, std::int64_t end, int)
-      {
-        for (std::int64_t id = begin; id < end; ++id)
-        {
-          this->Sides[std::size_t(id)] = this->sidesOf(id);
-        }
-      });
+    forIndices(
+      this->Count, [&](std::int64_t id) { this->Sides[std::size_t(id)] = this->sidesOf(id); },
+      threads, 1 << 16);
   }
 
   /// One mask per point; null if find() has not computed them.

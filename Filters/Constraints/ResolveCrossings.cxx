@@ -16,7 +16,6 @@
 #include <limits>
 #include <map>
 #include <sstream>
-#include <stdexcept>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -198,14 +197,14 @@ private:
   {
     const std::vector<IdSegment>& segments = this->Result.Segments;
     std::vector<SegmentTree::Item> all(segments.size());
-    forChunks(std::int64_t(all.size()), SegmentTree::Chunk, this->Threads, {},
-      [&](std::int64_t begin, std::int64_t end, int)
+    forIndices(
+      std::int64_t(all.size()),
+      [&](std::int64_t i)
       {
-        for (auto i = std::size_t(begin); i < std::size_t(end); ++i)
-        {
-          all[i] = { this->at(segments[i].A), this->at(segments[i].B), std::int64_t(i) };
-        }
-      });
+        all[std::size_t(i)] = { this->at(segments[std::size_t(i)].A),
+          this->at(segments[std::size_t(i)].B), i };
+      },
+      this->Threads, SegmentTree::Chunk);
     return all;
   }
 

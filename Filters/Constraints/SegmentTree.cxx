@@ -6,11 +6,7 @@
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Sort.h"
 #include "Predicates/ExactPredicates.h"
-#include "Triangulation/PointsView.h"
 
-#include <algorithm>
-#include <cmath>
-#include <numeric>
 #include <stdexcept>
 #include <utility>
 
@@ -67,14 +63,8 @@ SegmentTree::SegmentTree(std::vector<Item> segments, int threads)
   std::vector<std::uint64_t> order(segments.size()); // first sort keys, then indices
   const auto forAll = [threads](std::int64_t items, const auto& body)
   {
-    forChunks(items, Chunk, threads, {},
-      [&body](std::int64_t begin, std::int64_t end, int)
-      {
-        for (std::int64_t i = begin; i < end; ++i)
-        {
-          body(std::size_t(i));
-        }
-      });
+    forIndices(
+      items, [&body](std::int64_t i) { body(std::size_t(i)); }, threads, Chunk);
   };
   forAll(count, [&](std::size_t i) { order[i] = mortonKey(segments[i], all) << 32 | i; });
   sortByUpperHalf(order, threads);

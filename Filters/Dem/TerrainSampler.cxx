@@ -12,7 +12,6 @@
 #include <cstdint>
 #include <limits>
 #include <map>
-#include <stdexcept>
 
 namespace tipp
 {
@@ -236,14 +235,11 @@ private:
     DemBand::Kind kind, const SimplexMesh& mesh, int threads, std::vector<double>& values)
   {
     values.resize(std::size_t(mesh.Cells));
-    forChunks(mesh.Cells, 1 << 12, threads, {},
-      [&](std::int64_t begin, std::int64_t end, int)
-      {
-        for (std::int64_t cell = begin; cell < end; ++cell)
-        {
-          values[std::size_t(cell)] = derivedValue(kind, cornersOf(mesh, cell));
-        }
-      });
+    forIndices(
+      mesh.Cells,
+      [&](std::int64_t cell)
+      { values[std::size_t(cell)] = derivedValue(kind, cornersOf(mesh, cell)); },
+      threads, 1 << 12);
   }
 
   std::vector<std::vector<double>> Derived; ///< by band, then by triangle; empty for columns

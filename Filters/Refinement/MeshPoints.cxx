@@ -286,17 +286,16 @@ public:
     const SurfaceLocator surface(
       this->Points, start.data(), std::int64_t(start.size() / 3), threads);
     constexpr std::int64_t chunk = 1024;
-    forChunks(added, chunk, threads, {},
-      [&](std::int64_t begin, std::int64_t end, int)
+    forIndices(
+      added,
+      [&](std::int64_t i)
       {
-        for (std::int64_t i = begin; i < end; ++i)
+        if (this->Beside[std::size_t(i)][0] == None)
         {
-          if (this->Beside[std::size_t(i)][0] == None)
-          {
-            blends[first + std::size_t(i)] = surface.findNear(this->added(i));
-          }
+          blends[first + std::size_t(i)] = surface.findNear(this->added(i));
         }
-      });
+      },
+      threads, chunk);
   }
 
 private:

@@ -10,12 +10,10 @@
 #include "Parallel/Sort.h"
 #include "Partition/ClassifyCells.h"
 #include "Partitioned/PieceFormat.h"
-#include "Partitioning/MeshTiling.h"
 #include "Partitioning/PartitionMesh.h"
 #include "Predicates/SensibleRange.h"
 #include "Series/MeshSeries.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <iterator>
@@ -23,8 +21,6 @@
 #include <numeric>
 #include <optional>
 #include <stdexcept>
-#include <string>
-#include <utility>
 
 namespace tipp
 {
@@ -230,21 +226,20 @@ private:
       raw.resize(std::size_t(count) * bytes);
       file.read(points.Offset + std::uint64_t(from) * bytes, raw.data(), raw.size());
       owners.resize(std::size_t(count));
-      forChunks(count, 1 << 14, threadCount(this->Options.Threads), {},
-        [&](std::int64_t begin, std::int64_t end, int)
+      forIndices(
+        count,
+        [&](std::int64_t i)
         {
-          for (std::int64_t i = begin; i < end; ++i)
-          {
-            Box3 at;
-            takeCoordinates(
-              points, raw.data() + std::size_t(i) * bytes, 1, int(dimension), &at.Min.x);
-            at.Max = at.Min;
-            std::int32_t owner = std::numeric_limits<std::int32_t>::max();
-            this->Tiling->forEachMeeting(
-              at, [&owner](std::int32_t box) { owner = std::min(owner, box); });
-            owners[std::size_t(i)] = owner;
-          }
-        });
+          Box3 at;
+          takeCoordinates(
+            points, raw.data() + std::size_t(i) * bytes, 1, int(dimension), &at.Min.x);
+          at.Max = at.Min;
+          std::int32_t owner = std::numeric_limits<std::int32_t>::max();
+          this->Tiling->forEachMeeting(
+            at, [&owner](std::int32_t box) { owner = std::min(owner, box); });
+          owners[std::size_t(i)] = owner;
+        },
+        this->Options.Threads, 1 << 14);
       for (std::int64_t i = 0; i < count; ++i)
       {
         visit(from + i, owners[std::size_t(i)]);

@@ -316,14 +316,12 @@ private:
   {
     const nb::gil_scoped_release released;
     const auto* const xy = static_cast<const double*>(points.data());
-    forChunks(std::int64_t(points.shape(0)), pointsAtOnce, threadCount(threads), {},
-      [&](std::int64_t begin, std::int64_t end, int)
-      {
-        for (std::int64_t i = begin; i < end; ++i)
-        {
-          work(i, { xy[2 * i], xy[2 * i + 1] });
-        }
-      });
+    forIndices(
+      std::int64_t(points.shape(0)),
+      [&](std::int64_t i) {
+        work(i, { xy[2 * i], xy[2 * i + 1] });
+      },
+      threads, pointsAtOnce);
   }
 
   InputArray Points;

@@ -4,14 +4,12 @@
 #include "Constraints/ConstraintEdges.h"
 #include "Constraints/NearSegments.h"
 #include "Constraints/PositionIndex.h"
-#include "Constraints/ResolveCrossings.h"
 #include "Constraints/SurfaceValues.h"
 #include "Parallel/ParallelFor.h"
 #include "Predicates/ExactPredicates.h"
 #include "Triangulation/StreamSampler.h"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <set>
 #include <utility>
@@ -168,15 +166,15 @@ void SegmentTiles::findCovered(const std::function<void(std::int64_t, Point2)>& 
     const std::vector<SegmentTree::Item>& distinct = all.segments();
     std::vector<Point2> ends(distinct.size());
     constexpr std::int64_t chunk = 256;
-    forChunks(std::int64_t(distinct.size()), chunk, this->Threads, {},
-      [&](std::int64_t begin, std::int64_t end, int)
+    forIndices(
+      std::int64_t(distinct.size()),
+      [&](std::int64_t i)
       {
-        for (auto i = std::size_t(begin); i < std::size_t(end); ++i)
-        {
-          ends[i] =
-            isHere(distinct[i]) ? endOfCovered(distinct[i], all) : orderedEnds(distinct[i]).first;
-        }
-      });
+        ends[std::size_t(i)] = isHere(distinct[std::size_t(i)])
+          ? endOfCovered(distinct[std::size_t(i)], all)
+          : orderedEnds(distinct[std::size_t(i)]).first;
+      },
+      this->Threads, chunk);
     for (std::size_t i = 0; i < distinct.size(); ++i)
     {
       if (!(ends[i] == orderedEnds(distinct[i]).first))
