@@ -3,6 +3,7 @@
 #define tippOverlapSums_h
 
 #include "Overlap/RunningSum.h"
+#include "Parallel/ParallelFor.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -51,6 +52,23 @@ public:
     const RunningSum* const sums = this->of(target);
     const double area = sums->value();
     return area > 0 ? sums[component + 1].value() / area : std::numeric_limits<double>::quiet_NaN();
+  }
+
+  /// Writes the means of `count` components from `first` on to `means`, those of each target
+  /// together: `null` where `shares`, by target, is 0.
+  void copyMeans(int first, int count, const std::vector<double>& shares, double null,
+    double* means, int threads) const
+  {
+    forIndices(
+      std::int64_t(shares.size()),
+      [&](std::int64_t i)
+      {
+        for (int k = 0; k < count; ++k)
+        {
+          means[i * count + k] = shares[std::size_t(i)] > 0 ? this->meanOf(i, first + k) : null;
+        }
+      },
+      threads);
   }
 
   int components() const { return int(this->Components); }

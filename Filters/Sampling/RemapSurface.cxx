@@ -175,13 +175,8 @@ std::vector<SurfaceMeans> SurfaceRemapper::finish(double null)
     const auto components = std::size_t(array.Components);
     SurfaceMeans means{ array.Name, array.Components, {} };
     means.Values.resize(shares.size() * components);
-    for (std::size_t i = 0; i < means.Values.size(); ++i)
-    {
-      const std::size_t cell = i / components;
-      means.Values[i] = shares[cell] > 0
-        ? this->Sums->meanOf(std::int64_t(cell), first + int(i % components))
-        : null;
-    }
+    this->Sums->copyMeans(
+      first, array.Components, shares, null, means.Values.data(), this->Threads);
     first += array.Components;
     all.push_back(std::move(means));
   }

@@ -6,6 +6,7 @@
 #include "Parallel/Stopwatch.h"
 #include "Resample/NearBorder.h"
 #include "Sampling/PlainValues.h"
+#include "Sampling/SampleValues.h"
 #include "Sampling/SamplingLattice.h"
 #include "Vtk/CellArrays.h"
 #include "Vtk/Compatibility.h"
@@ -18,9 +19,7 @@
 #include "vtkPointSet.h"
 
 #include <algorithm>
-#include <cstring>
 #include <limits>
-#include <set>
 #include <stdexcept>
 
 namespace tipp
@@ -31,34 +30,9 @@ namespace
 /// Writes the null value into tuples [begin, end).
 void fillNull(vtkDataArray* array, double null, std::int64_t begin, std::int64_t end)
 {
-  withScalar(*scalarOf(array->GetDataType()),
-    [&](auto type)
-    {
-      using T = decltype(type);
-      T* const values = static_cast<T*>(array->GetVoidPointer(0));
-      const int components = array->GetNumberOfComponents();
-      std::fill(values + begin * components, values + end * components, toScalar<T>(null));
-    });
-}
-
-/// Marks the points with a component equal to `value`.
-void markEqual(vtkDataArray* array, double value, std::vector<bool>& marked)
-{
-  withScalar(*scalarOf(array->GetDataType()),
-    [&](auto type)
-    {
-      using T = decltype(type);
-      const T* const values = static_cast<const T*>(array->GetVoidPointer(0));
-      const std::size_t components = std::size_t(array->GetNumberOfComponents());
-      for (std::size_t i = 0; i < marked.size() * components; ++i)
-      {
-        // A float is compared with `value` rounded to float; for integers, `value` may be out of
-        // T's range.
-        const bool equal = std::is_floating_point_v<T> ? values[i] == toScalar<T>(value)
-                                                       : double(values[i]) == value;
-        marked[i / components] = marked[i / components] || equal;
-      }
-    });
+  const int components = array->GetNumberOfComponents();
+  fillNull(*scalarOf(array->GetDataType()), null, array->GetVoidPointer(0),
+    std::size_t(begin * components), std::size_t(end * components));
 }
 
 /// The number of bytes per sample of all selected arrays.
@@ -367,33 +341,19 @@ void SampledImage::finishMeans()
   for (const Array& array : this->Arrays)
   {
     const int components = array.Samples->GetNumberOfComponents();
-    auto* const means = static_cast<double*>(array.Samples->GetVoidPointer(0));
-    forIndices(
-      this->samples(),
-      [&](std::int64_t i)
-      {
-        for (int k = 0; k < components; ++k)
-        {
-          means[i * components + k] = shares[std::size_t(i)] > 0 ? this->Sums->meanOf(i, first + k)
-                                                                 : this->Settings.NullValue;
-        }
-      },
-      this->Settings.Threads);
+    this->Sums->copyMeans(first, components, shares, this->Settings.NullValue,
+      static_cast<double*>(array.Samples->GetVoidPointer(0)), this->Settings.Threads);
     first += components;
   }
-  std::transform(shares.begin(), shares.end(), this->valid(),
-    [](double share) { return (unsigned char)(share > 0); });
+  const std::string warning = markCovered(shares, this->valid());
   if (this->Settings.CoveredShare)
   {
     const Array& array = this->addArray(coveredShareName, true, VTK_DOUBLE, 1);
     std::copy(shares.begin(), shares.end(), static_cast<double*>(array.Samples->GetVoidPointer(0)));
   }
-  const auto twice =
-    std::count_if(shares.begin(), shares.end(), [](double share) { return share > 1; });
-  if (twice > 0)
+  if (!warning.empty())
   {
-    this->warnOnce("Cells overlap: " + std::to_string(twice) +
-      " pixels are covered more than once, and each of their cells counts.");
+    this->warnOnce(warning);
   }
 }
 
@@ -471,7 +431,8 @@ void SampledImage::hideNoData(vtkPointSet* mesh, SimplexSet& simplices)
     if (array && array->GetName() && scalarOf(array->GetDataType()) &&
       this->Settings.Selected(false, array->GetName()))
     {
-      markEqual(contiguous(array), *this->Settings.NoData, marked);
+      markEqual(*scalarOf(array->GetDataType()), contiguous(array)->GetVoidPointer(0),
+        std::size_t(array->GetNumberOfComponents()), *this->Settings.NoData, marked);
     }
   }
   hideMarked(simplices, marked);
@@ -500,21 +461,17 @@ void SampledImage::finish()
   const int projected = 3 - this->Settings.Axes[0] - this->Settings.Axes[1];
   const bool repeats = this->Dimension == 2 && this->samples() > 0;
   const std::size_t layers = repeats ? std::size_t(this->Grid.size(projected)) : 1;
-  const std::size_t layer = std::size_t(this->samples()) / layers;
-  for (std::size_t i = 1; i < layers; ++i)
+  const auto samples = std::size_t(this->samples());
+  for (const Array& array : this->Arrays)
   {
-    for (Array& array : this->Arrays)
-    {
-      char* const samples = static_cast<char*>(array.Samples->GetVoidPointer(0));
-      const std::size_t bytes = layer *
-        std::size_t(array.Samples->GetNumberOfComponents() * array.Samples->GetDataTypeSize());
-      std::memcpy(samples + i * bytes, samples, bytes);
-    }
-    std::memcpy(this->valid() + i * layer, this->valid(), layer);
-    if (this->Keys)
-    {
-      std::memcpy(this->Keys.get() + i * layer, this->Keys.get(), layer * sizeof(CellKey));
-    }
+    vtkDataArray* const values = array.Samples;
+    const auto tuple = std::size_t(values->GetNumberOfComponents() * values->GetDataTypeSize());
+    repeatLayer(values->GetVoidPointer(0), samples * tuple, layers);
+  }
+  repeatLayer(this->valid(), samples, layers);
+  if (this->Keys)
+  {
+    repeatLayer(this->Keys.get(), samples * sizeof(CellKey), layers);
   }
 }
 

@@ -5,6 +5,7 @@
 #include "Overlap/AddOverlaps.h"
 #include "Parallel/Stopwatch.h"
 #include "Sampling/HiddenSamples.h"
+#include "Sampling/SampleValues.h"
 #include "Sampling/SamplingLattice.h"
 #include "Sampling/SurfaceOfPiece.h"
 
@@ -23,35 +24,6 @@ namespace
 std::size_t bytesOfTuple(Scalar type, int components)
 {
   return scalarSize(type) * std::size_t(components);
-}
-
-void fillNull(Scalar type, double null, void* samples, std::size_t count)
-{
-  withScalar(type,
-    [&](auto zero)
-    {
-      using T = decltype(zero);
-      std::fill_n(static_cast<T*>(samples), count, toScalar<T>(null));
-    });
-}
-
-/// Marks the points with a component equal to `value`. A float is compared with `value` rounded to
-/// float; for integers, `value` may be out of the type's range.
-void markEqual(const Piece::Attribute& attribute, double value, std::vector<bool>& marked)
-{
-  withScalar(attribute.Description.Type,
-    [&](auto zero)
-    {
-      using T = decltype(zero);
-      const T* const values = attribute.Values.as<T>();
-      const auto components = std::size_t(attribute.Description.Components);
-      for (std::size_t i = 0; i < marked.size() * components; ++i)
-      {
-        const bool isEqual = std::is_floating_point_v<T> ? values[i] == toScalar<T>(value)
-                                                         : double(values[i]) == value;
-        marked[i / components] = marked[i / components] || isEqual;
-      }
-    });
 }
 
 const Piece::Attribute* find(const Piece& piece, const StoredArray& wanted)
@@ -112,7 +84,8 @@ void SampledPieces::addArrays(const Piece& piece, bool ofPoints)
     Buffer<char> samples(this->Valid.size() * bytesOfTuple(type, source.Components));
     if (this->Keys)
     {
-      fillNull(type, this->Settings.NullValue, samples.data(), samples.size() / scalarSize(type));
+      fillNull(
+        type, this->Settings.NullValue, samples.data(), 0, samples.size() / scalarSize(type));
     }
     this->Arrays.push_back({ source, type, std::move(samples) });
   }
@@ -134,7 +107,8 @@ std::vector<unsigned char> SampledPieces::hiddenCellsOf(const Piece& piece)
     {
       if (attribute.Description.OfPoints && this->isSelected(attribute.Description))
       {
-        markEqual(attribute, *this->Settings.NoData, marked);
+        markEqual(attribute.Description.Type, attribute.Values.data(),
+          std::size_t(attribute.Description.Components), *this->Settings.NoData, marked);
       }
     }
     hideAt(piece, marked, hidden);
@@ -224,7 +198,7 @@ void SampledPieces::clear()
 {
   for (Array& array : this->Arrays)
   {
-    fillNull(array.Type, this->Settings.NullValue, array.Samples.data(),
+    fillNull(array.Type, this->Settings.NullValue, array.Samples.data(), 0,
       array.Samples.size() / scalarSize(array.Type));
   }
 }
@@ -254,19 +228,11 @@ void SampledPieces::finishMeans()
   for (Array& array : this->Arrays)
   {
     const int components = array.Source.Components;
-    auto* const means = array.Samples.as<double>();
-    for (std::size_t i = 0; i < shares.size(); ++i)
-    {
-      for (int k = 0; k < components; ++k)
-      {
-        means[i * std::size_t(components) + std::size_t(k)] =
-          shares[i] > 0 ? this->Sums->meanOf(std::int64_t(i), first + k) : this->Settings.NullValue;
-      }
-    }
+    this->Sums->copyMeans(first, components, shares, this->Settings.NullValue,
+      array.Samples.as<double>(), this->Settings.Threads);
     first += components;
   }
-  std::transform(shares.begin(), shares.end(), this->Valid.as<unsigned char>(),
-    [](double share) { return (unsigned char)(share > 0); });
+  const std::string warning = markCovered(shares, this->Valid.as<unsigned char>());
   if (this->Settings.CoveredShare)
   {
     Buffer<char> samples(shares.size() * sizeof(double));
@@ -274,12 +240,9 @@ void SampledPieces::finishMeans()
     this->Arrays.push_back(
       { { coveredShareName, false, Scalar::Float64, 1, -1 }, Scalar::Float64, std::move(samples) });
   }
-  const auto twice =
-    std::count_if(shares.begin(), shares.end(), [](double share) { return share > 1; });
-  if (twice > 0)
+  if (!warning.empty())
   {
-    this->Warnings.push_back("Cells overlap: " + std::to_string(twice) +
-      " pixels are covered more than once, and each of their cells counts.");
+    this->Warnings.push_back(warning);
   }
 }
 
@@ -288,19 +251,11 @@ void SampledPieces::repeatLayers()
 {
   const int projected = 3 - this->Settings.Axes[0] - this->Settings.Axes[1];
   const auto layers = std::size_t(this->IsSurface ? this->Grid.size(projected) : 1);
-  const auto repeat = [layers](Buffer<char>& samples)
-  {
-    const std::size_t layer = samples.size() / layers;
-    for (std::size_t i = 1; i < layers; ++i)
-    {
-      std::memcpy(samples.data() + i * layer, samples.data(), layer);
-    }
-  };
   for (Array& array : this->Arrays)
   {
-    repeat(array.Samples);
+    repeatLayer(array.Samples.data(), array.Samples.size(), layers);
   }
-  repeat(this->Valid);
+  repeatLayer(this->Valid.data(), this->Valid.size(), layers);
 }
 
 void SampledPieces::remove(const std::string& name)

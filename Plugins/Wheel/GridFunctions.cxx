@@ -9,6 +9,7 @@
 #include "Points/ReadPoints.h"
 #include "Predicates/SensibleRange.h"
 #include "Resample/Resample.h"
+#include "Sampling/SampleValues.h"
 #include "Sampling/SamplingLattice.h"
 
 #include <nanobind/stl/array.h>
@@ -202,19 +203,6 @@ double bytesOfTuples(const std::vector<NamedArray>& arrays)
   return bytes;
 }
 
-/// Repeats the single layer in which a surface is sampled along z.
-void repeatLayers(const Lattice& lattice, std::vector<Buffer<char>>& samples)
-{
-  for (Buffer<char>& buffer : samples)
-  {
-    const std::size_t layer = buffer.size() / std::size_t(lattice.size(2));
-    for (std::size_t at = layer; layer > 0 && at < buffer.size(); at += layer)
-    {
-      std::memcpy(buffer.data() + at, buffer.data(), layer);
-    }
-  }
-}
-
 /// Returns the lattice as describe() does, the arrays' samples, the mask and warnings.
 /// `pointBounds`: those of the points, if the given ones are to be checked against them.
 nb::tuple resampleMesh(const InputArray& points, const InputArray& cells,
@@ -270,9 +258,10 @@ nb::tuple resampleMesh(const InputArray& points, const InputArray& cells,
     [&]
     {
       result = resample(mesh, lattice, attributes, options);
-      if (surface)
+      // A surface is sampled in a single layer.
+      for (Buffer<char>& buffer : samples)
       {
-        repeatLayers(lattice, samples);
+        repeatLayer(buffer.data(), buffer.size(), surface ? std::size_t(lattice.size(2)) : 1);
       }
     });
   reporter.finish();

@@ -61,14 +61,7 @@ nb::list meansOf(const std::vector<OverlapField>& fields, const OverlapSums& sum
   {
     const std::size_t components = std::size_t(field.Components);
     Buffer<double> means(shares.size() * components);
-    for (std::size_t i = 0; i < shares.size(); ++i)
-    {
-      for (std::size_t k = 0; k < components; ++k)
-      {
-        means[i * components + k] =
-          shares[i] > 0 ? sums.meanOf(std::int64_t(i), first + int(k)) : null;
-      }
-    }
+    sums.copyMeans(first, field.Components, shares, null, means.data(), 0);
     first += field.Components;
     result.append(arrayOf(std::move(means), components));
   }
