@@ -132,12 +132,7 @@ vtkMTimeType vtkTIPPDelaunay2D::GetMTime()
 
 int vtkTIPPDelaunay2D::FillInputPortInformation(int port, vtkInformation* info)
 {
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 0 ? "vtkPointSet" : "vtkPolyData");
-  if (port == 1)
-  {
-    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
-  }
-  return 1;
+  return tipp::acceptInput(info, port == 0 ? "vtkPointSet" : "vtkPolyData", port == 1);
 }
 
 int vtkTIPPDelaunay2D::FillOutputPortInformation(int port, vtkInformation* info)

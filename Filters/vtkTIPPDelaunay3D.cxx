@@ -23,11 +23,9 @@
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
-#include "vtkSmartPointer.h"
 #include "vtkTable.h"
 #include "vtkUnstructuredGrid.h"
 
-#include <algorithm>
 #include <array>
 #include <string>
 #include <utility>
@@ -75,8 +73,7 @@ vtkTable* vtkTIPPDelaunay3D::GetStatistics()
 
 int vtkTIPPDelaunay3D::FillInputPortInformation(int, vtkInformation* info)
 {
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
-  return 1;
+  return tipp::acceptInput(info, "vtkPointSet");
 }
 
 int vtkTIPPDelaunay3D::FillOutputPortInformation(int port, vtkInformation* info)

@@ -62,12 +62,7 @@ vtkTIPPPointsToImage::vtkTIPPPointsToImage()
 
 int vtkTIPPPointsToImage::FillInputPortInformation(int port, vtkInformation* info)
 {
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 0 ? "vtkPointSet" : "vtkPolyData");
-  if (port > 0)
-  {
-    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
-  }
-  return 1;
+  return tipp::acceptInput(info, port == 0 ? "vtkPointSet" : "vtkPolyData", port > 0);
 }
 
 /// `points` may be null if Resolution and SamplingBounds are used.
@@ -114,14 +109,7 @@ int vtkTIPPPointsToImage::RequestInformation(
 int vtkTIPPPointsToImage::RequestUpdateExtent(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector*)
 {
-  for (int port = 0; port < 3; ++port)
-  {
-    if (inputs[port]->GetNumberOfInformationObjects() > 0)
-    {
-      tipp::askForUpdatePiece(inputs[port]->GetInformationObject(0), 0, 1);
-    }
-  }
-  return 1;
+  return tipp::askForWholeInputs(inputs, 3);
 }
 
 /// The points with their elevation and those single-component arrays that are bands. An array named

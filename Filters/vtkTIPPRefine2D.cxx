@@ -247,25 +247,13 @@ void vtkTIPPRefine2D::ClearRegions()
 
 int vtkTIPPRefine2D::FillInputPortInformation(int port, vtkInformation* info)
 {
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 0 ? "vtkPolyData" : "vtkPointSet");
-  if (port > 0)
-  {
-    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
-  }
-  return 1;
+  return tipp::acceptInput(info, port == 0 ? "vtkPolyData" : "vtkPointSet", port > 0);
 }
 
 int vtkTIPPRefine2D::RequestUpdateExtent(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector*)
 {
-  for (int port = 0; port < 2; ++port)
-  {
-    if (inputs[port]->GetNumberOfInformationObjects() > 0)
-    {
-      tipp::askForUpdatePiece(inputs[port]->GetInformationObject(0), 0, 1);
-    }
-  }
-  return 1;
+  return tipp::askForWholeInputs(inputs, 2);
 }
 
 int vtkTIPPRefine2D::RequestData(

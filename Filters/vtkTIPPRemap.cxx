@@ -21,18 +21,13 @@ vtkTIPPRemap::vtkTIPPRemap()
 
 int vtkTIPPRemap::FillInputPortInformation(int port, vtkInformation* info)
 {
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 0 ? "vtkPointSet" : "vtkDataObject");
-  return 1;
+  return tipp::acceptInput(info, port == 0 ? "vtkPointSet" : "vtkDataObject");
 }
 
 int vtkTIPPRemap::RequestUpdateExtent(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector*)
 {
-  for (int port = 0; port < 2; ++port)
-  {
-    tipp::askForUpdatePiece(inputs[port]->GetInformationObject(0), 0, 1);
-  }
-  return 1;
+  return tipp::askForWholeInputs(inputs, 2);
 }
 
 int vtkTIPPRemap::RequestData(

@@ -5,7 +5,6 @@
 #include "Ranks/Communicator.h"
 #include "Statistics/RunStatistics.h"
 
-#include "vtkAlgorithm.h"
 #include "vtkCommunicator.h"
 #include "vtkDataObject.h"
 #include "vtkDoubleArray.h"
@@ -177,6 +176,28 @@ void askForUpdatePiece(vtkInformation* inInfo, int piece, int pieces)
     inInfo->Set(Executive::UPDATE_EXTENT(), inInfo->Get(Executive::WHOLE_EXTENT()), 6);
   }
   setUpdatePiece(inInfo, piece, pieces);
+}
+
+int acceptInput(vtkInformation* port, const char* type, bool isOptional)
+{
+  port->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), type);
+  if (isOptional)
+  {
+    port->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  }
+  return 1;
+}
+
+int askForWholeInputs(vtkInformationVector** inputs, int ports)
+{
+  for (int port = 0; port < ports; ++port)
+  {
+    if (vtkInformation* const input = inputs[port]->GetInformationObject(0))
+    {
+      askForUpdatePiece(input, 0, 1);
+    }
+  }
+  return 1;
 }
 
 bool askForUpdatePieces(

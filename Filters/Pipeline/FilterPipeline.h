@@ -91,8 +91,14 @@ int triangulateReported(vtkAlgorithm* filter, vtkMultiProcessController* control
 /// object.
 vtkDataObject* updatedInput(vtkAlgorithm* filter, int rank, int ranks, vtkInformation* outInfo);
 
+/// Describes an input port in FillInputPortInformation(): data of the class `type`. Returns 1.
+int acceptInput(vtkInformation* port, const char* type, bool isOptional = false);
+
 /// Requests a piece of a filter's input; for structured data, the whole extent.
 void askForUpdatePiece(vtkInformation* inInfo, int piece, int pieces);
+
+/// Requests all of each input that is connected, in RequestUpdateExtent(). Returns 1.
+int askForWholeInputs(vtkInformationVector** inputs, int ports);
 
 /// Returns whether the controller has several ranks. If so, requests this rank's piece of each
 /// input, without ghost cells: every rank contributes its share, whichever piece is requested of
