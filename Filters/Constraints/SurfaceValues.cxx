@@ -3,9 +3,7 @@
 
 #include "Parallel/ParallelFor.h"
 
-#include <algorithm>
 #include <cmath>
-#include <type_traits>
 #include <utility>
 
 namespace tipp
@@ -130,23 +128,11 @@ SurfacePositions::SurfacePositions(const std::vector<Point2>& positions)
 void interpolateTuples(const std::vector<CrossingPoint>& crossings, std::size_t points, Scalar type,
   std::size_t components, void* values)
 {
-  withScalar(type,
-    [&](auto kind)
+  appendTuples(crossings, points, type, components, values,
+    [](const CrossingPoint& crossing, const auto& valueAt)
     {
-      using Value = decltype(kind);
-      auto* const tuples = static_cast<Value*>(values);
-      Value* to = tuples + points * components;
-      for (const CrossingPoint& crossing : crossings)
-      {
-        const Value* const a = tuples + std::size_t(crossing.A) * components;
-        const Value* const b = tuples + std::size_t(crossing.B) * components;
-        for (std::size_t c = 0; c < components; ++c)
-        {
-          const double value =
-            double(a[c]) * (1 - crossing.Fraction) + double(b[c]) * crossing.Fraction;
-          *to++ = roundedLikeVtk<Value>(value);
-        }
-      }
+      return valueAt(crossing.A) * (1 - crossing.Fraction) +
+        valueAt(crossing.B) * crossing.Fraction;
     });
 }
 

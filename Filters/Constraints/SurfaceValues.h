@@ -10,13 +10,36 @@
 #include "Triangulation/Triangulation.h"
 #include "vtkTIPPFiltersModule.h"
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <vector>
 
 namespace tipp
 {
+
+/// Sets the tuples of new points, which follow the first `points` tuples of an array, to
+/// valueOf(newPoint, valueAt) for each component; valueAt(id) is its value at an earlier point.
+/// Integers are rounded.
+template <typename NewPoint, typename ValueOf>
+void appendTuples(const std::vector<NewPoint>& newPoints, std::size_t points, Scalar type,
+  std::size_t components, void* values, const ValueOf& valueOf)
+{
+  withScalar(type,
+    [&](auto kind)
+    {
+      using Value = decltype(kind);
+      auto* const tuples = static_cast<Value*>(values);
+      Value* to = tuples + points * components;
+      for (const NewPoint& point : newPoints)
+      {
+        for (std::size_t c = 0; c < components; ++c)
+        {
+          *to++ = roundedLikeVtk<Value>(valueOf(
+            point, [&](PointId id) { return double(tuples[std::size_t(id) * components + c]); }));
+        }
+      }
+    });
+}
 
 /// Sets the tuples of the crossings, which follow the first `points` tuples of an array. A
 /// crossing's value is linear between the two points that it lies between. Integers are rounded.

@@ -40,10 +40,8 @@ public:
     forIndices(std::int64_t(nodes),
       [this](std::int64_t node)
       {
-        std::int32_t* const begin =
-          this->Neighbours.data() + this->Neighbours.start(std::size_t(node));
-        std::int32_t* const end =
-          this->Neighbours.data() + this->Neighbours.start(std::size_t(node) + 1);
+        std::int32_t* const begin = this->Neighbours.begin(std::size_t(node));
+        std::int32_t* const end = this->Neighbours.end(std::size_t(node));
         std::sort(begin, end);
         this->Degrees[std::size_t(node)] = std::int32_t(std::unique(begin, end) - begin);
       });
@@ -55,7 +53,7 @@ public:
   /// The node's neighbours, ascending.
   const std::int32_t* begin(std::int64_t node) const
   {
-    return this->Neighbours.data() + this->Neighbours.start(std::size_t(node));
+    return this->Neighbours.begin(std::size_t(node));
   }
   const std::int32_t* end(std::int64_t node) const
   {

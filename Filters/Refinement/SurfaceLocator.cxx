@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <type_traits>
 
 namespace tipp
 {
@@ -29,22 +28,8 @@ double distanceToSegment(Point2 p, Point2 a, Point2 b)
 void blendTuples(const std::vector<PointBlend>& blends, std::size_t points, Scalar type,
   std::size_t components, void* values)
 {
-  withScalar(type,
-    [&](auto kind)
-    {
-      using Value = decltype(kind);
-      auto* const tuples = static_cast<Value*>(values);
-      Value* to = tuples + points * components;
-      for (const PointBlend& blend : blends)
-      {
-        for (std::size_t c = 0; c < components; ++c)
-        {
-          const double value = blend.valueOf(
-            [&](PointId id) { return double(tuples[std::size_t(id) * components + c]); });
-          *to++ = roundedLikeVtk<Value>(value);
-        }
-      }
-    });
+  appendTuples(blends, points, type, components, values,
+    [](const PointBlend& blend, const auto& valueAt) { return blend.valueOf(valueAt); });
 }
 
 SurfaceLocator::SurfaceLocator(
