@@ -7,7 +7,6 @@
 #include "Series/VariableNames.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace tipp
 {
@@ -85,14 +84,8 @@ public:
   SeriesMesh readMesh() override
   {
     SeriesMesh mesh;
-    const std::vector<double> x = readComponent(this->Mesh.Points, 0);
-    const std::vector<double> y = readComponent(this->Mesh.Points, 1);
-    mesh.XY.resize(2 * x.size());
-    for (std::size_t i = 0; i < x.size(); ++i)
-    {
-      mesh.XY[2 * i] = x[i];
-      mesh.XY[2 * i + 1] = y[i];
-    }
+    mesh.XY =
+      interleaved(readComponent(this->Mesh.Points, 0), readComponent(this->Mesh.Points, 1));
     CellReader(this->Mesh).read(0, this->Mesh.Cells.Tuples, mesh.Triangles);
     return mesh;
   }
@@ -104,15 +97,9 @@ public:
     for (std::int64_t begin = 0; begin < count; begin += block)
     {
       const std::int64_t end = std::min(begin + block, count);
-      const std::vector<double> x = readComponent(this->Mesh.Points, 0, begin, end);
-      const std::vector<double> y = readComponent(this->Mesh.Points, 1, begin, end);
-      std::vector<double> xy(2 * x.size());
-      for (std::size_t i = 0; i < x.size(); ++i)
-      {
-        xy[2 * i] = x[i];
-        xy[2 * i + 1] = y[i];
-      }
-      nodes.add(xy, count - end);
+      const auto component = [&](int axis)
+      { return readComponent(this->Mesh.Points, axis, begin, end); };
+      nodes.add(interleaved(component(0), component(1)), count - end);
     }
     CellReader cells(this->Mesh);
     SeriesTriangles triangles;

@@ -56,14 +56,8 @@ public:
     SeriesMesh mesh;
     mesh.Triangles = this->Content.Cells;
     const FlatArray& points = this->Content.Points;
-    const std::vector<double> x = componentOf(points, points.Values, 0);
-    const std::vector<double> y = componentOf(points, points.Values, 1);
-    mesh.XY.resize(2 * x.size());
-    for (std::size_t i = 0; i < x.size(); ++i)
-    {
-      mesh.XY[2 * i] = x[i];
-      mesh.XY[2 * i + 1] = y[i];
-    }
+    mesh.XY =
+      interleaved(componentOf(points, points.Values, 0), componentOf(points, points.Values, 1));
     return mesh;
   }
 

@@ -54,10 +54,7 @@ public:
   /// Reads the next record, of any length.
   std::vector<char> next(const std::string& what)
   {
-    const std::uint64_t length = this->lengthAt(this->Offset);
-    std::vector<char> bytes = this->at(this->Offset, length, what);
-    this->Offset += length + 2 * sizeof(std::uint32_t);
-    return bytes;
+    return this->next(this->lengthAt(this->Offset), what);
   }
 
   /// Reads the next record, which must have `length` bytes.

@@ -12,6 +12,18 @@
 namespace tipp
 {
 
+/// Returns x and y of nodes, interleaved.
+inline std::vector<double> interleaved(const std::vector<double>& x, const std::vector<double>& y)
+{
+  std::vector<double> xy(2 * x.size());
+  for (std::size_t i = 0; i < x.size(); ++i)
+  {
+    xy[2 * i] = x[i];
+    xy[2 * i + 1] = y[i];
+  }
+  return xy;
+}
+
 /// The nodes of a model's mesh: those of the file, and copies of them where a mesh is wrapped. They
 /// are in blocks, whose memory is returned to the system block by block.
 class SeriesNodes

@@ -78,15 +78,8 @@ protected:
   std::unique_ptr<CellBlocks> openCells() override
   {
     const HdfValues points = this->File.readPoints(0);
-    const std::vector<double> x = componentOf(points, 0);
-    const std::vector<double> y = componentOf(points, 1);
     CellMesh mesh;
-    mesh.XY.resize(2 * x.size());
-    for (std::size_t i = 0; i < x.size(); ++i)
-    {
-      mesh.XY[2 * i] = x[i];
-      mesh.XY[2 * i + 1] = y[i];
-    }
+    mesh.XY = interleaved(componentOf(points, 0), componentOf(points, 1));
     HdfCells cells = this->readCells(0);
     mesh.Offsets.push_back(0);
     const std::vector<double> ghost = this->ghostTypes();
