@@ -284,6 +284,27 @@ struct PointBlock
       column.resize(points);
     }
   }
+
+  /// Removes the points, by index in the block, for which isKept(index) returns false.
+  template <typename IsKept>
+  void keepIf(const IsKept& isKept)
+  {
+    std::size_t to = 0;
+    for (std::size_t i = 0; i < this->size(); ++i)
+    {
+      if (isKept(i))
+      {
+        this->XY[2 * to] = this->XY[2 * i];
+        this->XY[2 * to + 1] = this->XY[2 * i + 1];
+        for (std::vector<double>& column : this->Columns)
+        {
+          column[to] = column[i];
+        }
+        ++to;
+      }
+    }
+    this->resize(to);
+  }
 };
 
 /// Appends the points of a block to a table with the same columns.

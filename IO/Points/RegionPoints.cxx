@@ -54,24 +54,13 @@ public:
 private:
   void dropOutside(PointBlock& block)
   {
-    std::size_t to = 0;
-    for (std::size_t i = 0; i < block.size(); ++i)
-    {
-      const Point2 p{ block.XY[2 * i], block.XY[2 * i + 1] };
-      this->Seen.extend(p);
-      if (!this->Region.contains(p))
+    block.keepIf(
+      [&](std::size_t i)
       {
-        continue;
-      }
-      block.XY[2 * to] = p.x;
-      block.XY[2 * to + 1] = p.y;
-      for (std::vector<double>& column : block.Columns)
-      {
-        column[to] = column[i];
-      }
-      ++to;
-    }
-    block.resize(to);
+        const Point2 p{ block.XY[2 * i], block.XY[2 * i + 1] };
+        this->Seen.extend(p);
+        return this->Region.contains(p);
+      });
   }
 
   const std::unique_ptr<FilePoints> All;

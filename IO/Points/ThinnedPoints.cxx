@@ -170,7 +170,7 @@ public:
     this->decide();
     while (this->All->next(block, most))
     {
-      this->keepChosen(block);
+      block.keepIf([&](std::size_t i) { return this->Kept[std::size_t(block.First) + i]; });
       if (block.size() > 0)
       {
         block.First = this->Points;
@@ -309,26 +309,6 @@ private:
   {
     this->Kept[std::size_t(id)] = true;
     ++this->KeptCount;
-  }
-
-  void keepChosen(PointBlock& block) const
-  {
-    std::size_t to = 0;
-    for (std::size_t i = 0; i < block.size(); ++i)
-    {
-      if (!this->Kept[std::size_t(block.First) + i])
-      {
-        continue;
-      }
-      block.XY[2 * to] = block.XY[2 * i];
-      block.XY[2 * to + 1] = block.XY[2 * i + 1];
-      for (std::vector<double>& column : block.Columns)
-      {
-        column[to] = column[i];
-      }
-      ++to;
-    }
-    block.resize(to);
   }
 
   const std::unique_ptr<PointStream> All;
