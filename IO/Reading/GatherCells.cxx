@@ -322,6 +322,16 @@ Piece mergePieces(const std::vector<const Piece*>& pieces)
   return gatherCells(pieces, owned, ghosts, true);
 }
 
+Piece mergePieces(const std::vector<Piece>& pieces)
+{
+  std::vector<const Piece*> pointers;
+  for (const Piece& piece : pieces)
+  {
+    pointers.push_back(&piece);
+  }
+  return mergePieces(pointers);
+}
+
 RangeFilter::RangeFilter(const PartitionedMesh& mesh, const Box3& range)
   : Mesh(mesh)
   , Range(boundedBox(range, mesh.CellSize - 1))

@@ -125,6 +125,7 @@ Piece gatherCells(const std::vector<const Piece*>& pieces, const std::vector<Cel
 
 /// Merges pieces; cells are in the pieces' order. A cell that one of them owns is no ghost.
 Piece mergePieces(const std::vector<const Piece*>& pieces);
+Piece mergePieces(const std::vector<Piece>& pieces);
 
 /// Throws IOError if a range is probably a mistake: see requireSensible() of Predicates.
 void requireSensible(const PartitionedMesh& mesh, const Box3& range);

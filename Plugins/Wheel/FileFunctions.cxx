@@ -280,12 +280,7 @@ std::vector<Piece> readRange(PieceSource& source,
 /// Replaces the pieces by a single one.
 void merge(std::vector<Piece>& pieces)
 {
-  std::vector<const Piece*> pointers;
-  for (const Piece& piece : pieces)
-  {
-    pointers.push_back(&piece);
-  }
-  Piece one = mergePieces(pointers);
+  Piece one = mergePieces(pieces);
   pieces.clear();
   pieces.push_back(std::move(one));
 }

@@ -236,16 +236,11 @@ private:
   Piece read(const std::vector<std::size_t>& numbers)
   {
     std::vector<Piece> pieces = this->Source->read(numbers, this->Reading);
-    std::vector<const Piece*> pointers;
-    for (std::size_t i = 0; i < pieces.size(); ++i)
+    for (std::size_t i = 0; this->Range && i < pieces.size(); ++i)
     {
-      if (this->Range)
-      {
-        pieces[i] = this->Range->apply(pieces[i], numbers[i], false);
-      }
-      pointers.push_back(&pieces[i]);
+      pieces[i] = this->Range->apply(pieces[i], numbers[i], false);
     }
-    return pieces.size() == 1 ? std::move(pieces[0]) : mergePieces(pointers);
+    return pieces.size() == 1 ? std::move(pieces[0]) : mergePieces(pieces);
   }
 
   const Box3& requireBounds(const Box3& extent)

@@ -45,12 +45,7 @@ Piece readPart(PieceSource& source, const std::vector<std::size_t>& numbers)
   PieceOptions options;
   options.Borrowed = false;
   std::vector<Piece> pieces = source.read(numbers, options);
-  std::vector<const Piece*> pointers;
-  for (const Piece& piece : pieces)
-  {
-    pointers.push_back(&piece);
-  }
-  return pieces.size() == 1 ? std::move(pieces[0]) : mergePieces(pointers);
+  return pieces.size() == 1 ? std::move(pieces[0]) : mergePieces(pieces);
 }
 
 } // namespace
