@@ -18,7 +18,6 @@
 #include <cstddef>
 #include <filesystem>
 #include <optional>
-#include <string>
 #include <vector>
 
 namespace tipp
@@ -67,23 +66,6 @@ std::optional<RawVtkFile> openRaw(const std::string& path)
   }
 }
 
-/// Reads an array as doubles.
-std::vector<double> doublesOf(const RawArray& array)
-{
-  std::vector<double> result;
-  withScalar(array.Type,
-    [&](auto zero)
-    {
-      std::vector<decltype(zero)> values(std::size_t(array.Tuples) * std::size_t(array.Components));
-      if (!values.empty())
-      {
-        InputFile(array.Path).read(array.Offset, values.data(), values.size() * sizeof(zero));
-      }
-      result.assign(values.begin(), values.end());
-    });
-  return result;
-}
-
 /// The points of an image, x first.
 std::vector<double> imagePoints(const RawVtkFile& file)
 {
@@ -110,7 +92,7 @@ std::vector<double> pointsOf(const RawVtkFile& file, const std::string& path)
   requirePositions(file, path);
   if (file.Kind != "ImageData")
   {
-    return doublesOf(file.Points);
+    return valuesOf<double>(file.Points);
   }
   constexpr std::int64_t most = std::int64_t(1) << 31;
   return file.PointCount <= most ? imagePoints(file) : throw std::bad_alloc();
@@ -119,7 +101,7 @@ std::vector<double> pointsOf(const RawVtkFile& file, const std::string& path)
 /// Adds a column for each component of an array, as a build with VTK names them.
 void addColumns(const RawArray& array, PointTable& table)
 {
-  const std::vector<double> values = doublesOf(array);
+  const std::vector<double> values = valuesOf<double>(array);
   const auto components = std::size_t(array.Components);
   for (std::size_t k = 0; k < components; ++k)
   {
@@ -138,9 +120,9 @@ void addColumns(const RawArray& array, PointTable& table)
 void addEdges(const RawCells& cells, bool areLines, std::int64_t points, const std::string& path,
   std::vector<std::array<std::int64_t, 2>>& edges)
 {
-  const std::vector<double> ids = doublesOf(cells.Ids);
+  const std::vector<double> ids = valuesOf<double>(cells.Ids);
   std::size_t begin = 0;
-  for (const double offset : doublesOf(cells.Offsets))
+  for (const double offset : valuesOf<double>(cells.Offsets))
   {
     const bool isInside = offset >= double(begin) && offset <= double(ids.size());
     const std::size_t end = isInside ? std::size_t(offset) : begin;

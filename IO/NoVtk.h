@@ -2,9 +2,13 @@
 #ifndef tippNoVtk_h
 #define tippNoVtk_h
 
+#include "Files/InputFile.h"
+#include "Files/RawArray.h"
 #include "vtkTIPPIOModule.h"
 
+#include <cstddef>
 #include <string>
+#include <vector>
 
 namespace tipp
 {
@@ -15,6 +19,24 @@ namespace tipp
 
 /// Does the same for a file whose cells are wanted, and says how PyVista writes these.
 [[noreturn]] VTKTIPPIO_EXPORT void refuseVtkCells(const std::string& path);
+
+/// Reads an array as another type.
+template <typename T>
+std::vector<T> valuesOf(const RawArray& array)
+{
+  std::vector<T> result;
+  withScalar(array.Type,
+    [&](auto zero)
+    {
+      std::vector<decltype(zero)> values(std::size_t(array.Tuples) * std::size_t(array.Components));
+      if (!values.empty())
+      {
+        InputFile(array.Path).read(array.Offset, values.data(), values.size() * sizeof(zero));
+      }
+      result.assign(values.begin(), values.end());
+    });
+  return result;
+}
 
 } // namespace tipp
 

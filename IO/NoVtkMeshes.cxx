@@ -2,7 +2,6 @@
 // Replaces Meshes/VtkMeshes.cxx in a build without VTK: of VTK's files, it reads the .vtu files of
 // triangles or tetrahedra that can be read in place.
 #include "Files/IOError.h"
-#include "Files/InputFile.h"
 #include "Flat/FlatMesh.h"
 #include "Meshes/MeshFiles.h"
 #include "NoVtk.h"
@@ -23,21 +22,6 @@ FlatMesh openVtu(const std::string& path)
     refuseVtkCells(path);
   }
   return openFlatMesh(path);
-}
-
-/// Reads an array as another type.
-template <typename T>
-std::vector<T> valuesOf(const RawArray& array)
-{
-  std::vector<T> result;
-  withScalar(array.Type,
-    [&](auto zero)
-    {
-      std::vector<decltype(zero)> values(std::size_t(array.Tuples) * std::size_t(array.Components));
-      InputFile(array.Path).read(array.Offset, values.data(), values.size() * sizeof(zero));
-      result.assign(values.begin(), values.end());
-    });
-  return result;
 }
 
 /// Reads the corners of all cells, which must have so many.

@@ -190,36 +190,40 @@ private:
     this->Mesh.Columns[0].Values.push_back(this->Rows.number(field + 2));
   }
 
+  /// Reads `count` rows of at least `fields` numbers, and calls take() after each.
+  template <typename Take>
+  void readRows(std::int64_t count, std::size_t fields, const char* what, const Take& take)
+  {
+    for (; count > 0; --count)
+    {
+      this->Rows.next(fields, what);
+      take();
+    }
+  }
+
   void readNodes2()
   {
     this->Rows.next(1, "the number of nodes");
-    for (std::int64_t left = this->count(0); left > 0; --left)
-    {
-      this->Rows.next(4, "a node");
-      this->addNumber(this->Rows.integer(0));
-      this->addPosition(1);
-    }
+    this->readRows(this->count(0), 4, "a node",
+      [this]
+      {
+        this->addNumber(this->Rows.integer(0));
+        this->addPosition(1);
+      });
   }
 
   /// Nodes are in blocks: first the numbers of a block, then the positions.
   void readNodes4()
   {
     this->Rows.next(4, "the numbers of blocks and nodes");
-    for (std::int64_t blocks = this->count(0); blocks > 0; --blocks)
-    {
-      this->Rows.next(4, "a block of nodes");
-      const std::int64_t nodes = this->count(3);
-      for (std::int64_t i = 0; i < nodes; ++i)
+    this->readRows(this->count(0), 4, "a block of nodes",
+      [this]
       {
-        this->Rows.next(1, "the number of a node");
-        this->addNumber(this->Rows.integer(0));
-      }
-      for (std::int64_t i = 0; i < nodes; ++i)
-      {
-        this->Rows.next(3, "the position of a node");
-        this->addPosition(0);
-      }
-    }
+        const std::int64_t nodes = this->count(3);
+        this->readRows(
+          nodes, 1, "the number of a node", [this] { this->addNumber(this->Rows.integer(0)); });
+        this->readRows(nodes, 3, "the position of a node", [this] { this->addPosition(0); });
+      });
   }
 
   /// Adds a triangle, whose corners begin at the given field of the row.
@@ -275,20 +279,20 @@ private:
   void readElements4()
   {
     this->Rows.next(4, "the numbers of blocks and elements");
-    for (std::int64_t blocks = this->count(0); blocks > 0; --blocks)
-    {
-      this->Rows.next(4, "a block of elements");
-      const auto group = this->GroupOf.find(this->Rows.integer(1));
-      const bool hasTriangles = this->areTriangles(this->Rows.integer(2));
-      for (std::int64_t left = this->count(3); left > 0; --left)
+    this->readRows(this->count(0), 4, "a block of elements",
+      [this]
       {
-        this->Rows.next(1, "an element");
-        if (hasTriangles)
-        {
-          this->addTriangle(1, group == this->GroupOf.end() ? 0 : group->second);
-        }
-      }
-    }
+        const auto group = this->GroupOf.find(this->Rows.integer(1));
+        const bool hasTriangles = this->areTriangles(this->Rows.integer(2));
+        this->readRows(this->count(3), 1, "an element",
+          [&]
+          {
+            if (hasTriangles)
+            {
+              this->addTriangle(1, group == this->GroupOf.end() ? 0 : group->second);
+            }
+          });
+      });
   }
 
   /// Reads the first physical group of each surface. A row of a surface has its number, six bounds,
@@ -299,23 +303,17 @@ private:
     const std::int64_t surfaces = this->count(2);
     const std::int64_t points = this->count(0);
     const std::int64_t curves = this->count(1);
-    for (std::int64_t i = 0; i < points; ++i)
-    {
-      this->Rows.next(1, "a point");
-    }
-    for (std::int64_t i = 0; i < curves; ++i)
-    {
-      this->Rows.next(1, "a curve");
-    }
-    for (std::int64_t i = 0; i < surfaces; ++i)
-    {
-      this->Rows.next(8, "a surface");
-      if (this->Rows.integer(7) > 0)
+    this->readRows(points, 1, "a point", [] {});
+    this->readRows(curves, 1, "a curve", [] {});
+    this->readRows(surfaces, 8, "a surface",
+      [this]
       {
-        this->Rows.require(9, "a surface");
-        this->GroupOf[this->Rows.integer(0)] = this->Rows.integer(8);
-      }
-    }
+        if (this->Rows.integer(7) > 0)
+        {
+          this->Rows.require(9, "a surface");
+          this->GroupOf[this->Rows.integer(0)] = this->Rows.integer(8);
+        }
+      });
   }
 
   const std::string Path;
