@@ -11,7 +11,6 @@
 #include "Models/ModelMesh.h"
 #include "Models/TriangleFiles.h"
 #include "Npy/NpyFile.h"
-#include "Points/ReadPoints.h"
 #include "Series/WriteUgrid.h"
 
 #include <algorithm>
@@ -344,6 +343,17 @@ std::vector<std::string> filesOfMesh(const std::string& path, bool hasSegments)
     }
   }
   return files;
+}
+
+std::vector<std::string> filesOfMeshes(const std::vector<std::string>& paths)
+{
+  std::vector<std::string> all;
+  for (const std::string& path : paths)
+  {
+    const std::vector<std::string> files = filesOfMesh(path, false);
+    all.insert(all.end(), files.begin(), files.end());
+  }
+  return all;
 }
 
 std::size_t requireElevation(const PointTable& points, const std::string& path)

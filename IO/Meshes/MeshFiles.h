@@ -68,6 +68,8 @@ VTKTIPPIO_EXPORT bool writeMesh(const std::string& path, const NodesView& nodes,
 /// writeMesh() writes these files if it writes `path`. `hasSegments`: whether MeshOptions::Segments
 /// are given.
 VTKTIPPIO_EXPORT std::vector<std::string> filesOfMesh(const std::string& path, bool hasSegments);
+/// The same for several paths, without segments.
+VTKTIPPIO_EXPORT std::vector<std::string> filesOfMeshes(const std::vector<std::string>& paths);
 
 /// The index of a table's column that is the third coordinate: named z, Z or elevation. Throws
 /// IOError, with the file's name `path`, if there is none.

@@ -2,6 +2,7 @@
 #include "Commands/Commands.h"
 #include "Commands/PointArguments.h"
 #include "Commands/Report.h"
+#include "Commands/RunInPieces.h"
 #include "Console/Process.h"
 #include "Distributed3D/DistributedTetrahedralization.h"
 #include "Files/Formats.h"
@@ -243,44 +244,18 @@ void reportMade(const Delaunay3DArguments& arguments, const OutOfCoreStatistics3
   printWarnings(warningsOf(statistics));
 }
 
-/// Runs `tipp delaunay3d` out of core on the ranks of a controller, or in this process alone
-/// (null). Returns the exit code, which is the same on all ranks.
-int runInPieces(const Delaunay3DArguments& arguments, vtkMultiProcessController* controller)
+int makeInPieces(const Delaunay3DArguments& arguments, vtkMultiProcessController* controller)
 {
-  Communicator ranks(controller);
   OutOfCoreOptions3 options;
   arguments.setOptions(options);
   options.Threads = arguments.Threads;
   options.MapDuplicates = arguments.MapDuplicates;
   options.Neighbors = arguments.Neighbors;
-  const auto open = [&]
-  {
-    if (ranks.isFirst())
-    {
-      checkOutputs(arguments.Output, arguments.Statistics, arguments.Scratch, arguments.Inputs);
-    }
-    auto points = openPointStream(arguments.Inputs, withThinningFile(arguments));
-    if (ranks.isFirst())
-    {
-      requireInBounds(arguments.Inputs, arguments.Columns, points->readFigures());
-      reportRead(points->readFigures());
-      reportTables(points->reports());
-    }
-    return points;
-  };
-  OutOfCoreStatistics3 statistics;
-  const int code =
-    runOutOfCore(ranks, "Tetrahedralizing", open, arguments.Output, options, statistics);
-  if (code != Success)
-  {
-    return code;
-  }
-  const RankUsage usage = gatherUsage(ranks);
-  if (ranks.isFirst())
-  {
-    reportMade(arguments, statistics, usage);
-  }
-  return Success;
+  return runInPieces<OutOfCoreStatistics3>(
+    controller, "Tetrahedralizing", arguments, options,
+    [](std::unique_ptr<PointStream> points) { return points; },
+    [&](const OutOfCoreStatistics3& statistics, const RankUsage& usage)
+    { reportMade(arguments, statistics, usage); });
 }
 
 /// Throws CLI::ValidationError for options that the kind of output does not support.
@@ -316,7 +291,7 @@ int run(Delaunay3DArguments& arguments)
   const MpiSession session;
   if (arguments.makesPieces())
   {
-    return runInPieces(arguments, session.controller());
+    return makeInPieces(arguments, session.controller());
   }
   return session.controller() ? runTogether(session.controller(),
                                   [&](Communicator& ranks) { triangulateShares(ranks, arguments); })

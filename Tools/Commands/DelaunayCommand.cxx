@@ -3,6 +3,7 @@
 #include "Commands/Commands.h"
 #include "Commands/PointArguments.h"
 #include "Commands/Report.h"
+#include "Commands/RunInPieces.h"
 #include "Console/Process.h"
 #include "Constraints/ConstraintEdges.h"
 #include "Constraints/Insertion/TriangulateConstrained.h"
@@ -178,13 +179,7 @@ bool writeResult(const DelaunayArguments& arguments, const PointTable& points,
 /// x.node, would replace an input.
 void requireApartFromOthers(const std::string& output, const std::vector<std::string>& inputs)
 {
-  std::vector<std::string> allInputs;
-  for (const std::string& input : inputs)
-  {
-    const std::vector<std::string> files = filesOfMesh(input, false);
-    allInputs.insert(allInputs.end(), files.begin(), files.end());
-  }
-  requireApart(filesOfMesh(output, false), allInputs);
+  requireApart(filesOfMesh(output, false), filesOfMeshes(inputs));
 }
 
 /// Throws IOError unless the output files can be written. Call it before the computation. Returns
@@ -489,41 +484,18 @@ void reportMade(
   warnOfNoTriangles(statistics.Triangles, arguments.MaximumEdge);
 }
 
-/// Runs `tipp delaunay` out of core on the ranks of a controller, or in this process alone (null).
-/// Returns the exit code, which is the same on all ranks.
-int runInPieces(const DelaunayArguments& arguments, vtkMultiProcessController* controller)
+int makeInPieces(const DelaunayArguments& arguments, vtkMultiProcessController* controller)
 {
-  Communicator ranks(controller);
   const OutOfCoreOptions options = makeOptions(arguments);
-  const auto open = [&]
-  {
-    if (ranks.rank() == 0)
+  return runInPieces<OutOfCoreStatistics>(
+    controller, "Triangulating", arguments, options,
+    [&](std::unique_ptr<PointStream> points)
     {
-      checkOutputs(arguments.Output, arguments.Statistics, arguments.Scratch, arguments.Inputs);
-    }
-    auto points = openPointStream(arguments.Inputs, withThinningFile(arguments));
-    if (ranks.rank() == 0)
-    {
-      requireInBounds(arguments.Inputs, arguments.Columns, points->readFigures());
-      reportRead(points->readFigures());
-      reportTables(points->reports());
-    }
-    return joinConstraints(
-      std::move(points), arguments.Constraints, options.MarkConstraints, options.Threads);
-  };
-  OutOfCoreStatistics statistics;
-  const int code =
-    runOutOfCore(ranks, "Triangulating", open, arguments.Output, options, statistics);
-  if (code != Success)
-  {
-    return code;
-  }
-  const RankUsage usage = gatherUsage(ranks);
-  if (ranks.rank() == 0)
-  {
-    reportMade(arguments, statistics, usage);
-  }
-  return Success;
+      return joinConstraints(
+        std::move(points), arguments.Constraints, options.MarkConstraints, options.Threads);
+    },
+    [&](const OutOfCoreStatistics& statistics, const RankUsage& usage)
+    { reportMade(arguments, statistics, usage); });
 }
 
 /// Returns what the help says about the input.
@@ -759,7 +731,7 @@ int run(DelaunayArguments& arguments)
   const MpiSession session;
   if (arguments.makesPieces())
   {
-    return runInPieces(arguments, session.controller());
+    return makeInPieces(arguments, session.controller());
   }
   return session.controller() || arguments.isForRanks()
     ? runTogether(

@@ -18,13 +18,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
 #include <system_error>
-#include <utility>
 #include <vector>
 
 namespace tipp
@@ -149,12 +146,7 @@ PathState requireOutputs(const MeshArguments& arguments)
     { arguments.Constraints.Lines, arguments.Constraints.Boundary, arguments.Sizes.Depth,
       isNumber(arguments.Sizes.Size) ? "" : arguments.Sizes.Size, arguments.OpenPolygon,
       arguments.RegionFile });
-  std::vector<std::string> inputs;
-  for (const std::string& input : named)
-  {
-    const std::vector<std::string> files = filesOfMesh(input, false);
-    inputs.insert(inputs.end(), files.begin(), files.end());
-  }
+  const std::vector<std::string> inputs = filesOfMeshes(named);
   std::vector<std::string> outputs = filesOfMesh(arguments.Output, true);
   outputs.push_back(arguments.Statistics);
   requireApart(outputs, inputs);
