@@ -84,8 +84,7 @@ public:
   SeriesMesh readMesh() override
   {
     SeriesMesh mesh;
-    mesh.XY =
-      interleaved(readComponent(this->Mesh.Points, 0), readComponent(this->Mesh.Points, 1));
+    mesh.XY = interleaved(readComponent(this->Mesh.Points, 0), readComponent(this->Mesh.Points, 1));
     CellReader(this->Mesh).read(0, this->Mesh.Cells.Tuples, mesh.Triangles);
     return mesh;
   }
