@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Binding.h"
+#include "Files/RawArray.h"
 #include "Parallel/ParallelFor.h"
 #include "Refinement/MeshPoints.h"
 
