@@ -71,6 +71,7 @@ inline Refined refineGraph(
   source.Holes = holes;
   std::vector<std::string> warnings;
   PointsRequest request;
+  request.Options.Threads = options.Threads;
   request.Source = &source;
   const ConstrainedTriangulation start = triangulatePoints(
     PointsView(graph.XY.data(), std::size_t(graph.points()), 2), request, warnings);
