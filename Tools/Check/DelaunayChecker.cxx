@@ -113,7 +113,7 @@ void PieceChecker::checkPoints(const CheckedPiece& piece)
   }
   std::sort(own.begin(), own.end(),
     [](const Vertex& a, const Vertex& b) { return check::isBefore(a.At, b.At); });
-  if (this->Options.IsCut)
+  if (this->Options.IsCut && !this->Options.BoundaryFree)
   {
     this->keepHull(own);
   }
@@ -419,8 +419,7 @@ std::vector<std::string> CheckReport::faults() const
   return lines;
 }
 
-CheckReport checkDelaunay(std::vector<double> xy, std::vector<std::int64_t> triangles,
-  const CheckOptions& options, std::vector<std::int64_t> neighbors)
+CheckedPiece wholeMesh(std::vector<double> xy, std::vector<std::int64_t> triangles)
 {
   CheckedPiece piece;
   piece.XY = std::move(xy);
@@ -429,12 +428,24 @@ CheckReport checkDelaunay(std::vector<double> xy, std::vector<std::int64_t> tria
   piece.IsOwn.assign(piece.Ids.size(), true);
   piece.Triangles = std::move(triangles);
   piece.OwnTriangles = std::int64_t(piece.Triangles.size() / 3);
+  return piece;
+}
+
+CheckReport checkWhole(const CheckedPiece& mesh, const CheckOptions& options)
+{
+  PieceChecker checker(options);
+  checker.add(mesh);
+  return checker.finish();
+}
+
+CheckReport checkDelaunay(std::vector<double> xy, std::vector<std::int64_t> triangles,
+  const CheckOptions& options, std::vector<std::int64_t> neighbors)
+{
+  CheckedPiece piece = wholeMesh(std::move(xy), std::move(triangles));
   piece.Neighbors = std::move(neighbors);
   piece.CellIds.resize(piece.Neighbors.empty() ? 0 : std::size_t(piece.OwnTriangles));
   std::iota(piece.CellIds.begin(), piece.CellIds.end(), std::int64_t(0));
-  PieceChecker checker(options);
-  checker.add(piece);
-  return checker.finish();
+  return checkWhole(piece, options);
 }
 
 } // namespace tipp

@@ -165,6 +165,12 @@ private:
   std::vector<check::Position> Line;
 };
 
+/// A mesh in memory as a piece that owns everything, without neighbours.
+CheckedPiece wholeMesh(std::vector<double> xy, std::vector<std::int64_t> triangles);
+
+/// Checks a mesh that is one piece.
+CheckReport checkWhole(const CheckedPiece& mesh, const CheckOptions& options);
+
 /// Checks a mesh in memory, as one piece. `xy` holds x and y of each point, `triangles` three
 /// indices of points each. `neighbors` holds for each corner the index of the triangle opposite to
 /// it, or -1; empty: not checked.

@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 #include <unordered_map>
 #include <utility>
 
@@ -97,13 +96,14 @@ double areaOf(const Corners& t)
 class QualityCheck
 {
 public:
-  explicit QualityCheck(const CheckedMesh& mesh)
-    : Mesh(mesh)
-    , Bound(mesh.MinAngle)
-    , Edges(mesh.XY, mesh.Triangles)
+  explicit QualityCheck(CheckedMesh&& mesh)
+    : Whole(wholeMesh(std::move(mesh.XY), std::move(mesh.Triangles)))
+    , Mesh(std::move(mesh))
+    , Bound(this->Mesh.MinAngle)
+    , Edges(this->Whole.XY, this->Whole.Triangles)
     , Angles(this->Edges)
   {
-    this->Report.MinAngle = mesh.MinAngle;
+    this->Report.MinAngle = this->Mesh.MinAngle;
   }
 
   QualityReport run()
@@ -113,7 +113,7 @@ public:
     options.Constraints = this->Fixed;
     options.IsCut = true;        // points may be outside of the mesh
     options.BoundaryFree = true; // checkBorder() is stricter
-    this->Report.Mesh = checkDelaunay(this->Mesh.XY, this->Mesh.Triangles, options);
+    this->Report.Mesh = checkWhole(this->Whole, options);
     this->Report.LostPoints = this->countHeld(this->Mesh.InputXY, true);
     this->Report.FilledHoles = this->countHeld(this->Mesh.Holes, false);
     this->checkBorder();
@@ -124,14 +124,14 @@ public:
   }
 
 private:
-  std::size_t triangles() const { return this->Mesh.Triangles.size() / 3; }
+  std::size_t triangles() const { return this->Whole.Triangles.size() / 3; }
 
   /// Returns whether the points of a triangle exist and are finite. Others are faults that
   /// checkDelaunay() finds.
   bool isGood(std::size_t t) const
   {
-    const auto points = std::int64_t(this->Mesh.XY.size() / 2);
-    const std::int64_t* const corners = &this->Mesh.Triangles[3 * t];
+    const auto points = std::int64_t(this->Whole.XY.size() / 2);
+    const std::int64_t* const corners = &this->Whole.Triangles[3 * t];
     return std::all_of(corners, corners + 3,
       [&](std::int64_t id)
       { return id >= 0 && id < points && check::isFinite(this->Edges.at(id)); });
@@ -139,7 +139,7 @@ private:
 
   Corners cornersOf(std::size_t t) const
   {
-    const std::int64_t* const corners = &this->Mesh.Triangles[3 * t];
+    const std::int64_t* const corners = &this->Whole.Triangles[3 * t];
     return { this->Edges.at(corners[0]), this->Edges.at(corners[1]), this->Edges.at(corners[2]) };
   }
 
@@ -162,7 +162,8 @@ private:
   std::vector<std::array<Position, 2>> hullEdges() const;
   void measureGrading();
 
-  const CheckedMesh& Mesh;
+  const CheckedPiece Whole; ///< the points and triangles of Mesh
+  const CheckedMesh Mesh;   ///< without its points and triangles
   const check::AngleBound Bound;
   const MeshEdges Edges;
   check::InputAngles Angles;
@@ -393,10 +394,10 @@ void QualityCheck::checkBorder()
       }
     });
   std::sort(open.begin(), open.end());
-  for (std::size_t h = 0; !open.empty() && h < this->Mesh.Triangles.size(); ++h)
+  for (std::size_t h = 0; !open.empty() && h < this->Whole.Triangles.size(); ++h)
   {
     const auto ends =
-      std::minmax({ this->Mesh.Triangles[h], this->Mesh.Triangles[h % 3 == 2 ? h - 2 : h + 1] });
+      std::minmax({ this->Whole.Triangles[h], this->Whole.Triangles[h % 3 == 2 ? h - 2 : h + 1] });
     if (std::binary_search(open.begin(), open.end(), FixedEdge{ ends.first, ends.second }))
     {
       this->Report.OpenBorder.add(std::int64_t(h / 3));
@@ -474,7 +475,7 @@ void QualityCheck::checkTriangles()
 
 bool QualityCheck::isForced(std::size_t t) const
 {
-  const std::int64_t* const corners = &this->Mesh.Triangles[3 * t];
+  const std::int64_t* const corners = &this->Whole.Triangles[3 * t];
   return this->Angles.explain(corners[0], corners[1], corners[2]);
 }
 
@@ -543,39 +544,29 @@ void QualityCheck::checkListed(std::vector<bool>& isListed)
 
 void QualityCheck::measureGrading()
 {
-  struct Side
-  {
-    FixedEdge Ends;
-    double Area;
-  };
-  std::vector<Side> sides;
-  sides.reserve(this->Mesh.Triangles.size());
-  for (std::size_t h = 0; h < this->triangles() * 3; ++h)
-  {
-    if (this->isGood(h / 3))
+  this->Edges.allEdges(
+    [this](std::int64_t from, std::int64_t to)
     {
-      const auto ends =
-        std::minmax({ this->Mesh.Triangles[h], this->Mesh.Triangles[h % 3 == 2 ? h - 2 : h + 1] });
-      sides.push_back({ { ends.first, ends.second }, areaOf(this->cornersOf(h / 3)) });
-    }
-  }
-  std::sort(sides.begin(), sides.end(),
-    [](const Side& a, const Side& b)
-    { return std::tie(a.Ends, a.Area) < std::tie(b.Ends, b.Area); });
-  for (std::size_t i = 1; i < sides.size(); ++i)
-  {
-    if (sides[i - 1].Ends == sides[i].Ends && sides[i - 1].Area > 0)
-    {
-      this->Report.Grading = std::max(this->Report.Grading, sides[i].Area / sides[i - 1].Area);
-    }
-  }
+      const std::int64_t left = this->Edges.leftOf(from, to);
+      const std::int64_t right = this->Edges.leftOf(to, from);
+      if (from < to && left != MeshEdges::None && right != MeshEdges::None)
+      {
+        const Position a = this->Edges.at(from);
+        const Position b = this->Edges.at(to);
+        const auto [less, more] = std::minmax(
+          { areaOf({ a, b, this->Edges.at(left) }), areaOf({ b, a, this->Edges.at(right) }) });
+        this->Report.Grading =
+          less > 0 ? std::max(this->Report.Grading, more / less) : this->Report.Grading;
+      }
+      return true;
+    });
 }
 
 } // namespace
 
-QualityReport checkQuality(const CheckedMesh& mesh)
+QualityReport checkQuality(CheckedMesh mesh)
 {
-  return QualityCheck(mesh).run();
+  return QualityCheck(std::move(mesh)).run();
 }
 
 std::vector<std::string> QualityReport::faults() const

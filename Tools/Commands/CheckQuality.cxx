@@ -343,14 +343,16 @@ int checkQualityOfFiles(const QualityArguments& arguments)
   {
     readListed(arguments.Listed, mesh);
   }
-  const QualityReport report = checkQuality(mesh);
+  const std::size_t segments = mesh.Segments.size();
+  const bool hasInput = !mesh.InputXY.empty();
+  const QualityReport report = checkQuality(std::move(mesh));
   fmt::print("{} points, {} triangles, {} segments: {}\n", report.Mesh.Points, report.Mesh.Cells,
-    mesh.Segments.size(), report.isCorrect() ? "correct" : "FAULTY");
+    segments, report.isCorrect() ? "correct" : "FAULTY");
   for (const std::string& line : report.faults())
   {
     fmt::print("  {}\n", line);
   }
-  if (mesh.InputXY.empty())
+  if (!hasInput)
   {
     fmt::print("  the mesh's border is not checked, as no input is given\n");
   }

@@ -117,7 +117,7 @@ inline testing::AssertionResult isRight(const LineGraph& graph, const Refined& r
                                                            : ThinReason::ShortestEdge });
     }
   }
-  const std::vector<std::string> faults = checkQuality(checked).faults();
+  const std::vector<std::string> faults = checkQuality(std::move(checked)).faults();
   return faults.empty() ? testing::AssertionSuccess() : testing::AssertionFailure() << faults[0];
 }
 
