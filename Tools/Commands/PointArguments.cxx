@@ -26,7 +26,7 @@ std::optional<std::uint64_t> parseMemorySize(const std::string& text)
 {
   static const std::map<std::string, unsigned> shifts{ { "", 0 }, { "b", 0 }, { "k", 10 },
     { "kb", 10 }, { "kib", 10 }, { "m", 20 }, { "mb", 20 }, { "mib", 20 }, { "g", 30 },
-    { "gb", 30 }, { "gib", 30 } };
+    { "gb", 30 }, { "gib", 30 }, { "t", 40 }, { "tb", 40 }, { "tib", 40 } };
   const std::size_t end = std::min(text.find_first_not_of("0123456789"), text.size());
   std::string unit = text.substr(std::min(text.find_first_not_of(' ', end), text.size()));
   std::transform(unit.begin(), unit.end(), unit.begin(),

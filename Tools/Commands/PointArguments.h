@@ -127,9 +127,9 @@ void warnOfLongitudes(const LongitudeSpan& span);
 /// warnings about their values, to stderr.
 void reportTables(const std::vector<TableReport>& reports);
 
-/// Parses a number of bytes, which may have the unit K, M or G for 2^10, 2^20 or 2^30 bytes, such
-/// as "512M", "1 GB" or "2 GiB": in any case, also with B or iB, and with blanks before it. Returns
-/// nullopt for other text and for 0.
+/// Parses a number of bytes, which may have the unit K, M, G or T for 2^10, 2^20, 2^30 or 2^40
+/// bytes, such as "512M", "1 GB" or "2 GiB": in any case, also with B or iB, and with blanks before
+/// it. Returns nullopt for other text and for 0.
 std::optional<std::uint64_t> parseMemorySize(const std::string& text);
 
 /// Validates a memory size on the command line: returns an error message, or an empty text.

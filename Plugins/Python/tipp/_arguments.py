@@ -14,7 +14,7 @@ import numpy as np
 
 _LARGEST_INT = (1 << 31) - 1  # C's int
 _MOST_THREADS = 4096
-_SHIFTS = {None: 0, "K": 10, "M": 20, "G": 30}
+_SHIFTS = {None: 0, "K": 10, "M": 20, "G": 30, "T": 40}
 
 
 def number(value: Any, name: str, *, at_least: float = -math.inf, finite: bool = True) -> float:
@@ -52,11 +52,11 @@ def threads(value: Any) -> int:
 
 
 def memory(value: Any, name: str) -> int:
-    """Returns a number of bytes, from a number or a text such as '512M', '1 GB' or '2 GiB'. K, M and G are powers of
-    1024, in any case, with B or iB or without."""
+    """Returns a number of bytes, from a number or a text such as '512M', '1 GB' or '2 GiB'. K, M, G and T are
+    powers of 1024, in any case, with B or iB or without."""
     if not isinstance(value, str):
         return whole(value, name, at_least=1, at_most=(1 << 63) - 1)
-    match = re.fullmatch(r"([0-9]+) *(?:([KMG])(?:I?B)?|B)?", value.upper())
+    match = re.fullmatch(r"([0-9]+) *(?:([KMGT])(?:I?B)?|B)?", value.upper())
     size = int(match[1]) << _SHIFTS[match[2]] if match and len(value) < 30 else 0
     if not 0 < size < 1 << 63:
         raise ValueError(f"{name} is {shown(value)}; give a number of bytes, such as 536870912, '512M' or '2 GB'.")
@@ -209,7 +209,7 @@ DEM = {"align": "AlignToResolution", "soft": "SoftBreaklines", "max_edge": "Maxi
 MESHING = {"min_angle": "MinimumAngle", "max_area": "MaximumArea", "shortest_edge": "ShortestEdge",
            "keep_border": "KeepBorder", "keep_segments": "KeepSegments", "convex": "Convex", "crossings": "SplitCrossings",
            "marks": "GenerateSegments", "most_points": "MostPoints", "smooth": "SmoothingRounds",
-           "threads": "NumberOfThreads"}
+           "memory": "MemoryLimit", "scratch": "ScratchFolder", "threads": "NumberOfThreads"}
 QUERY = {"memory": "MemoryLimit", "step": "Step", "threads": "NumberOfThreads"}
 READ = {"merge": "MergePieces", "tiling": "Tiling", "memory_limit": "MemoryLimit"}
 WRITE = {"tiling": "Tiling", "duplicate_borrowers": "DuplicateBorrowers", "memory_limit": "MemoryLimit",
