@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTIPPRefine2D.h"
 
+#include "Files/PagedMemory.h"
 #include "Parallel/ParallelFor.h"
 #include "Pipeline/FilterPipeline.h"
 #include "Pipeline/InputPoints.h"
@@ -27,6 +28,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
@@ -77,7 +79,7 @@ tipp::Scalar scalarOf(vtkDataArray* array)
 }
 
 /// Sets the tuples of new points, which follow the first `points` ones.
-void blend(const std::vector<tipp::PointBlend>& blends, vtkIdType points, vtkAbstractArray* array)
+void blend(const tipp::Buffer<tipp::PointBlend>& blends, vtkIdType points, vtkAbstractArray* array)
 {
   vtkDataArray* const numbers = vtkDataArray::SafeDownCast(array);
   if (numbers && numbers->HasStandardMemoryLayout() && numbers->GetDataType() != VTK_BIT)
@@ -327,6 +329,9 @@ void vtkTIPPRefine2D::Execute(vtkPolyData* input, vtkPointSet* sizes, vtkPolyDat
   request.Refinement.Progress = [&monitor](double fraction) { return monitor(fraction); };
   const tipp::ProjectedPoints projected(input->GetPoints(), nullptr);
   std::vector<std::string> warnings;
+  const std::unique_ptr<tipp::PagedMemory> memory = tipp::limitedMemory(
+    this->ScratchFolder, std::uint64_t(this->MemoryLimit), "set ScratchFolder to another folder");
+  request.Refinement.Memory = memory.get();
   tipp::PointsMesh mesh = tipp::meshPoints(projected.view(), request, warnings);
   if (mesh.Aborted || !monitor(1))
   {
@@ -392,5 +397,7 @@ void vtkTIPPRefine2D::PrintSelf(ostream& os, vtkIndent indent)
   vtkTIPPPrintMacro(GenerateSegments);
   vtkTIPPPrintMacro(MostPoints);
   vtkTIPPPrintMacro(SmoothingRounds);
+  vtkTIPPPrintMacro(MemoryLimit);
+  vtkTIPPPrintMacro(ScratchFolder);
   vtkTIPPPrintMacro(NumberOfThreads);
 }

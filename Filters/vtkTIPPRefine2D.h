@@ -212,6 +212,23 @@ public:
 
   ///@{
   /**
+   * A memory limit in bytes for the process while it makes the mesh: the mesh is in temporary files
+   * then, and the result is the same. The input and the output are always in memory. 0 (the
+   * default): no limit.
+   */
+  vtkTIPPClampedMacro(MemoryLimit, vtkTypeInt64, 0, VTK_TYPE_INT64_MAX);
+  ///@}
+
+  ///@{
+  /**
+   * With MemoryLimit: the folder of the temporary files, on a disk. None by default: the system's
+   * folder for these, which may be in memory.
+   */
+  vtkTIPPFilePathMacro(ScratchFolder);
+  ///@}
+
+  ///@{
+  /**
    * The number of OpenMP threads. 0 (the default): OMP_NUM_THREADS, or as many as the processors
    * that this process may use, by its affinity, its control group and the ranks on this computer.
    */
@@ -248,6 +265,8 @@ private:
   vtkTypeBool GenerateSegments = 0;
   vtkIdType MostPoints = 0;
   int SmoothingRounds = 0;
+  vtkTypeInt64 MemoryLimit = 0;
+  std::string ScratchFolder;
   int NumberOfThreads = 0;
 };
 

@@ -11,14 +11,26 @@
 namespace tipp
 {
 
+/// The number of lists that findNeighbors() needs for this number of cells.
+template <std::size_t Corners = 3>
+std::size_t neighborLists(std::size_t cells)
+{
+  std::size_t lists = 1;
+  while (lists < (Corners - 2) * cells)
+  {
+    lists *= 2;
+  }
+  return lists;
+}
+
 /// For triangles that meet edge to edge and have the same orientation, or tetrahedra that meet
 /// facet to facet (Corners = 4): finds for each corner the index of the cell across the opposite
 /// edge or facet, or -1. The number of corners of all cells must fit in Index.
 ///
 /// Facets whose second cell has not been found are kept in lists, which are found by a hash of the
-/// points and linked in `neighbors` itself.
+/// points and linked in `neighbors` itself. `newest`: memory for neighborLists() values.
 template <std::size_t Corners = 3, typename Id, typename Index>
-void findNeighbors(const Id* corners, std::size_t cells, Index* neighbors)
+void findNeighbors(const Id* corners, std::size_t cells, Index* neighbors, Index* newest)
 {
   constexpr Index none = -1;
   // A link to slot h is -2 - h, so it is neither a cell nor -1, the end of a list.
@@ -54,12 +66,8 @@ void findNeighbors(const Id* corners, std::size_t cells, Index* neighbors)
       return std::array<Id, 3>{ low, middle, high };
     }
   };
-  std::size_t lists = 1;
-  while (lists < (Corners - 2) * cells)
-  {
-    lists *= 2;
-  }
-  std::vector<Index> newest(lists, none);
+  const std::size_t lists = neighborLists<Corners>(cells);
+  std::fill(newest, newest + lists, none);
   for (std::size_t h = 0; h < Corners * cells; ++h)
   {
     const auto facet = facetOf(h);
@@ -99,6 +107,14 @@ void findNeighbors(const Id* corners, std::size_t cells, Index* neighbors)
   }
   std::transform(
     neighbors, neighbors + Corners * cells, neighbors, [=](Index n) { return std::max(n, none); });
+}
+
+/// The same with memory of its own.
+template <std::size_t Corners = 3, typename Id, typename Index>
+void findNeighbors(const Id* corners, std::size_t cells, Index* neighbors)
+{
+  std::vector<Index> newest(neighborLists<Corners>(cells));
+  findNeighbors<Corners>(corners, cells, neighbors, newest.data());
 }
 
 } // namespace tipp

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Refinement/CellMeans.h"
 
-#include "Refinement/TrianglePart.h"
-
 #include <limits>
 
 namespace tipp
@@ -19,11 +17,11 @@ ResidentOptions queryOptions(int threads)
 
 } // namespace
 
-CellMeans::CellMeans(const std::vector<double>& xy, TrianglesView triangles, int threads)
-  : Triangles(triangles)
-  , Mesh(partOfTriangles(xy, triangles), queryOptions(threads))
-  , Sums(xy.size() / 2, 0)
-  , Counts(xy.size() / 2, 0)
+CellMeans::CellMeans(const MeshPart& part, int threads)
+  : Part(part)
+  , Mesh(part, queryOptions(threads))
+  , Sums(std::size_t(part.Mesh.PointCount), 0)
+  , Counts(std::size_t(part.Mesh.PointCount), 0)
 {
 }
 
@@ -41,11 +39,11 @@ void CellMeans::add(const std::vector<Point3>& points, const std::vector<double>
       continue;
     }
     const double* const weights = &answer.Weights[3 * i];
-    std::int64_t node = this->Triangles.id(std::size_t(triangle), 0);
+    std::int64_t node = cornerOf(this->Part.Mesh, triangle, 0);
     double weight = weights[0];
     for (int corner = 1; corner < 3; ++corner)
     {
-      const std::int64_t other = this->Triangles.id(std::size_t(triangle), corner);
+      const std::int64_t other = cornerOf(this->Part.Mesh, triangle, corner);
       if (weights[corner] > weight || (weights[corner] == weight && other < node))
       {
         node = other;

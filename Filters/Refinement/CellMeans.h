@@ -2,7 +2,6 @@
 #ifndef tippCellMeans_h
 #define tippCellMeans_h
 
-#include "Meshes/MeshOptions.h"
 #include "Predicates/Geometry.h"
 #include "Resident/ResidentMesh.h"
 
@@ -18,8 +17,8 @@ namespace tipp
 class CellMeans
 {
 public:
-  /// The triangles' ids must outlive this. `threads`: 0: defaultThreads().
-  CellMeans(const std::vector<double>& xy, TrianglesView triangles, int threads);
+  /// `threads`: 0: defaultThreads(). Nodes of other parts of the mesh have no meaning.
+  CellMeans(const MeshPart& part, int threads);
 
   /// Adds values at points, in their order. Points outside of the mesh are left out.
   void add(const std::vector<Point3>& points, const std::vector<double>& values);
@@ -28,7 +27,7 @@ public:
   double meanOf(std::size_t node) const;
 
 private:
-  const TrianglesView Triangles;
+  const MeshPart Part;
   const ResidentMesh Mesh;
   std::vector<double> Sums; ///< per node
   std::vector<std::int64_t> Counts;

@@ -20,9 +20,9 @@ struct HolePoints
   std::int64_t TooThin = 0;   ///< holes without a point, because doubles have none inside
 };
 
-/// Finds a point in each hole: in each bounded part of the plane that no triangle covers. `xy`: x
-/// and y of the nodes, interleaved. `segments`: pairs of nodes, among them all edges of the border.
-/// The triangles are counter-clockwise and do not overlap. One thread.
+/// Finds a point in each hole: in each bounded part of the plane that no triangle covers.
+/// `segments`: pairs of nodes, among them all edges of the border. The triangles are
+/// counter-clockwise and do not overlap. One thread.
 VTKTIPPFILTERS_EXPORT HolePoints findHolePoints(const NodesView& nodes, TrianglesView triangles,
   const std::vector<std::array<std::int64_t, 2>>& segments);
 

@@ -2,6 +2,7 @@
 #include "Refinement/MeshPoints.h"
 
 #include "Constraints/Insertion/TriangulateConstrained.h"
+#include "Files/PagedMemory.h"
 #include "Parallel/ParallelFor.h"
 #include "Refinement/MinimumPyramid.h"
 #include "Refinement/Smooth.h"
@@ -10,7 +11,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
 #include <limits>
 #include <optional>
 #include <sstream>
@@ -264,38 +264,39 @@ ConstrainedTriangulation triangulateStart(
 class AddedBlends
 {
 public:
-  AddedBlends(PointsView points, const RefinedMesh& mesh)
+  AddedBlends(PointsView points, const RefinedMesh& mesh, PagedMemory* memory)
     : Points(points)
     , Mesh(mesh)
-    , Beside(mesh.addedCount(), { None, None })
+    , Beside(bufferIn<std::array<PointId, 2>>(memory, mesh.addedCount()))
   {
+    std::fill(this->Beside.begin(), this->Beside.end(), std::array<PointId, 2>{ None, None });
   }
 
-  /// Appends the blends in the order of the points.
-  void append(const Buffer<std::int32_t>& start, int threads, std::vector<PointBlend>& blends)
+  /// Sets the blends of the added points.
+  void run(const Buffer<std::int32_t>& start, int threads, PointBlend* blends)
   {
-    const std::size_t first = blends.size();
     const auto added = std::int64_t(this->Mesh.addedCount());
-    blends.resize(first + std::size_t(added));
     this->linkSegments();
     for (const IdSegment& segment : this->Mesh.Segments)
     {
-      this->follow(segment.A, segment.B, blends.data() + first);
-      this->follow(segment.B, segment.A, blends.data() + first);
+      this->follow(segment.A, segment.B, blends);
+      this->follow(segment.B, segment.A, blends);
     }
     const SurfaceLocator surface(
       this->Points, start.data(), std::int64_t(start.size() / 3), threads);
     constexpr std::int64_t chunk = 1024;
-    forIndices(
-      added,
-      [&](std::int64_t i)
+    forChunks(added, chunk, threads, {},
+      [&](std::int64_t begin, std::int64_t end, int)
       {
-        if (this->Beside[std::size_t(i)][0] == None)
+        keepMemoryLimits();
+        for (std::int64_t i = begin; i < end; ++i)
         {
-          blends[first + std::size_t(i)] = surface.findNear(this->added(i));
+          if (this->Beside[std::size_t(i)][0] == None)
+          {
+            blends[i] = surface.findNear(this->added(i));
+          }
         }
-      },
-      threads, chunk);
+      });
   }
 
 private:
@@ -357,7 +358,7 @@ private:
 
   PointsView Points;
   const RefinedMesh& Mesh;
-  std::vector<std::array<PointId, 2>> Beside;
+  Buffer<std::array<PointId, 2>> Beside; ///< by added point: its neighbours along its segment
 };
 
 /// Returns the positions of the crossings, followed by the added points.
@@ -425,9 +426,11 @@ PointsMesh meshPoints(
   const std::vector<CrossingPoint>& crossings = start.Constraints.Crossings;
   if (request.HasValues)
   {
-    std::transform(crossings.begin(), crossings.end(), std::back_inserter(result.Blends), blendOf);
-    AddedBlends(all.view(), result.Mesh)
-      .append(start.Mesh.Ids32, threadCount(options.Threads), result.Blends);
+    result.Blends =
+      bufferIn<PointBlend>(options.Memory, crossings.size() + result.Mesh.addedCount());
+    std::transform(crossings.begin(), crossings.end(), result.Blends.begin(), blendOf);
+    AddedBlends(all.view(), result.Mesh, options.Memory)
+      .run(start.Mesh.Ids32, threadCount(options.Threads), result.Blends.data() + crossings.size());
   }
   result.NewXY = joinNew(crossings, std::move(result.Mesh.AddedXY), options.Memory);
   result.Crossings = std::int64_t(crossings.size());

@@ -54,10 +54,12 @@ struct MeshRequest
 struct PointsMesh
 {
   RefinedMesh Mesh;
-  Buffer<double> NewXY;           ///< of the new points
-  std::int64_t Crossings = 0;     ///< the number of those that are crossings
-  std::vector<PointBlend> Blends; ///< by new point: the points before it that it lies between
-  bool Aborted = false;           ///< Progress stopped the run; there are no triangles then
+  Buffer<double> NewXY;       ///< of the new points
+  std::int64_t Crossings = 0; ///< the number of those that are crossings
+  /// By new point: the points before it that it lies between. In RefinementOptions::Memory, as
+  /// NewXY.
+  Buffer<PointBlend> Blends;
+  bool Aborted = false; ///< Progress stopped the run; there are no triangles then
 };
 
 /// The values of arrays that mark triangles outside of the bounds: 0 for those within them, else

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Refinement/ModelBoundaries.h"
 
+#include "Files/MemoryLimits.h"
+#include "Parallel/Poll.h"
 #include "Predicates/ExactPredicates.h"
 #include "Query/Queries.h"
 #include "Refinement/TrianglePart.h"
@@ -16,11 +18,6 @@ namespace tipp
 {
 namespace
 {
-
-Point2 nodeAt(const std::vector<double>& xy, std::int64_t node)
-{
-  return { xy[2 * std::size_t(node)], xy[2 * std::size_t(node) + 1] };
-}
 
 /// Whether p lies on the closed segment ab.
 bool isOn(Point2 p, Point2 a, Point2 b)
@@ -58,12 +55,13 @@ using Nodes = std::vector<std::int64_t>;
 /// Whether a loop with the mesh on its left is an outer border. At its lowest node such a loop
 /// turns left, whenever it passes the node. A loop around a hole turns right there, at least once:
 /// it passes on the outside of the hole.
-bool isOuter(const std::vector<double>& xy, const Nodes& loop)
+bool isOuter(const NodesView& nodes, const Nodes& loop)
 {
-  const auto isLower = [&xy](std::int64_t a, std::int64_t b)
+  const auto at = [&nodes](std::int64_t node) { return nodes[std::size_t(node)]; };
+  const auto isLower = [&at](std::int64_t a, std::int64_t b)
   {
-    const Point2 p = nodeAt(xy, a);
-    const Point2 q = nodeAt(xy, b);
+    const Point2 p = at(a);
+    const Point2 q = at(b);
     return std::tie(p.x, p.y) < std::tie(q.x, q.y);
   };
   const std::int64_t lowest = *std::min_element(loop.begin(), loop.end(), isLower);
@@ -71,8 +69,7 @@ bool isOuter(const std::vector<double>& xy, const Nodes& loop)
   {
     const std::int64_t before = loop[(i + loop.size() - 1) % loop.size()];
     const std::int64_t after = loop[(i + 1) % loop.size()];
-    if (loop[i] == lowest &&
-      orientation(nodeAt(xy, before), nodeAt(xy, lowest), nodeAt(xy, after)) < 0)
+    if (loop[i] == lowest && orientation(at(before), at(lowest), at(after)) < 0)
     {
       return false;
     }
@@ -202,21 +199,56 @@ std::int64_t countRepeated(Nodes nodes)
 
 } // namespace
 
-OpenNodes nodesInside(const std::vector<double>& xy, std::vector<std::vector<Point2>> rings)
+OpenNodes nodesInside(const NodesView& nodes, std::vector<std::vector<Point2>> rings)
 {
-  return [&xy, rings = std::move(rings)](std::int64_t node)
-  { return isInside(nodeAt(xy, node), rings); };
+  return [nodes, rings = std::move(rings)](std::int64_t node)
+  { return isInside(nodes[std::size_t(node)], rings); };
 }
 
-OpenNodes nodesDeeperThan(const std::vector<double>& depths, double depth)
+OpenNodes nodesDeeperThan(const double* depths, double depth)
 {
-  return [&depths, depth](std::int64_t node) { return depths[std::size_t(node)] > depth; };
+  return [depths, depth](std::int64_t node) { return depths[node] > depth; };
 }
 
-ModelBoundaries findModelBoundaries(const std::vector<double>& xy, TrianglesView triangles,
-  const OpenNodes& isOpen, const LandKinds& kinds)
+namespace
 {
-  const ResidentMesh mesh(partOfTriangles(xy, triangles));
+
+/// The triangles at the ends of segments, and so at all nodes of the border.
+MeshPart partAtSegments(const NodesView& nodes, TrianglesView triangles,
+  const std::vector<std::array<std::int64_t, 2>>& segments)
+{
+  std::vector<bool> isEnd(nodes.size(), false);
+  for (const auto& [a, b] : segments)
+  {
+    isEnd[std::size_t(a)] = isEnd[std::size_t(b)] = true;
+  }
+  std::vector<std::int32_t> chosen;
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+  {
+    constexpr std::size_t often = 1 << 16;
+    if (t % often == 0)
+    {
+      poll();
+      keepMemoryLimits();
+    }
+    if (isEnd[std::size_t(triangles.id(t, 0))] || isEnd[std::size_t(triangles.id(t, 1))] ||
+      isEnd[std::size_t(triangles.id(t, 2))])
+    {
+      chosen.push_back(std::int32_t(t));
+    }
+  }
+  return partOfTriangles(nodes, triangles, chosen.data(), chosen.size(),
+    [&isEnd](std::int64_t node) { return isEnd[std::size_t(node)]; });
+}
+
+} // namespace
+
+ModelBoundaries findModelBoundaries(const NodesView& nodes, TrianglesView triangles,
+  const OpenNodes& isOpen, const LandKinds& kinds,
+  const std::vector<std::array<std::int64_t, 2>>& segments)
+{
+  const ResidentMesh mesh(segments.empty() ? partOfTriangles(nodes, triangles)
+                                           : partAtSegments(nodes, triangles, segments));
   const BoundaryLoops loops = boundaryOf(mesh);
   ModelBoundaries boundaries;
   std::vector<AdcircBoundaries::LandBoundary> islands;
@@ -225,7 +257,7 @@ ModelBoundaries findModelBoundaries(const std::vector<double>& xy, TrianglesView
     // A loop starts with its lowest edge, so with its lowest node.
     Nodes loop(loops.Points.Ids.begin() + loops.Points.Starts[i],
       loops.Points.Ids.begin() + loops.Points.Starts[i + 1]);
-    if (isOuter(xy, loop))
+    if (isOuter(nodes, loop))
     {
       ++boundaries.OuterLoops;
       OuterBorder(loop, isOpen).addTo(boundaries, kinds.Mainland);

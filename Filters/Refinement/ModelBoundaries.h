@@ -7,6 +7,7 @@
 #include "Predicates/Geometry.h"
 #include "vtkTIPPFiltersModule.h"
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -18,14 +19,14 @@ namespace tipp
 using OpenNodes = std::function<bool(std::int64_t node)>;
 
 /// Returns the nodes inside of a polygon or on its border, decided exactly. Its rings are closed
-/// without repeating the first corner; what lies in an even number of rings is outside. `xy` are
-/// the nodes' coordinates, interleaved, which must outlive the result.
+/// without repeating the first corner; what lies in an even number of rings is outside. The arrays
+/// that `nodes` refers to must outlive the result.
 VTKTIPPFILTERS_EXPORT OpenNodes nodesInside(
-  const std::vector<double>& xy, std::vector<std::vector<Point2>> rings);
+  const NodesView& nodes, std::vector<std::vector<Point2>> rings);
 
 /// Returns the nodes that are deeper than `depth`. `depths`, one per node and positive downwards,
 /// must outlive the result. NaN is not deeper.
-VTKTIPPFILTERS_EXPORT OpenNodes nodesDeeperThan(const std::vector<double>& depths, double depth);
+VTKTIPPFILTERS_EXPORT OpenNodes nodesDeeperThan(const double* depths, double depth);
 
 /// The kinds of boundaries without flow: ADCIRC's IBTYPE. SCHISM has 0 and 1 instead.
 struct LandKinds
@@ -54,10 +55,12 @@ struct ModelBoundaries
 /// Loops start at their lowest node, open boundaries of a loop follow each other from the one that
 /// has or follows this node, and loops are sorted by their lowest nodes.
 ///
-/// `xy`: x and y of the nodes, interleaved. The triangles' ids must be valid, and an edge may have
-/// at most two triangles. Throws WorkAborted.
-VTKTIPPFILTERS_EXPORT ModelBoundaries findModelBoundaries(const std::vector<double>& xy,
-  TrianglesView triangles, const OpenNodes& isOpen, const LandKinds& kinds = {});
+/// The triangles' ids must be valid, and an edge may have at most two triangles. `segments`: pairs
+/// of nodes, among them all edges of the border. With them, only triangles at their ends are held
+/// in memory, so that the mesh may be larger; empty: unknown. Throws WorkAborted.
+VTKTIPPFILTERS_EXPORT ModelBoundaries findModelBoundaries(const NodesView& nodes,
+  TrianglesView triangles, const OpenNodes& isOpen, const LandKinds& kinds = {},
+  const std::vector<std::array<std::int64_t, 2>>& segments = {});
 
 } // namespace tipp
 

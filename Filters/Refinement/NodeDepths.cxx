@@ -2,8 +2,11 @@
 #include "Refinement/NodeDepths.h"
 
 #include "Files/IOError.h"
+#include "Files/PagedMemory.h"
 #include "Parallel/Poll.h"
 #include "Refinement/CellMeans.h"
+#include "Refinement/NodeStrips.h"
+#include "Refinement/StripPoints.h"
 
 #include <algorithm>
 #include <cmath>
@@ -43,18 +46,25 @@ std::optional<Between> pixelsAround(double position, std::int64_t count)
   return Between{ std::max<std::int64_t>(index, 0), std::min(index + 1, count - 1), centre - low };
 }
 
-/// Interpolates a raster at nodes while its rows are read from south to north.
+Point2 nodeAt(const MeshPart& part, std::size_t node)
+{
+  const double* const xyz = static_cast<const double*>(part.Mesh.Points) + 3 * node;
+  return { xyz[0], xyz[1] };
+}
+
+/// Interpolates a raster at the nodes that a part owns while its rows are read from south to north.
 class RasterAtNodes
 {
 public:
-  RasterAtNodes(const std::vector<double>& xy, const RasterGrid& grid)
-    : Values(xy.size() / 2, notGiven)
-    , XY(xy)
+  RasterAtNodes(const MeshPart& part, const RasterGrid& grid)
+    : Values(std::size_t(part.Mesh.PointCount), notGiven)
+    , Part(part)
     , Grid(grid)
   {
     for (std::size_t node = 0; node < this->Values.size(); ++node)
     {
-      if (const auto rows = this->rowsAt(node); rows && this->columnsAt(node))
+      const auto rows = this->rowsAt(node);
+      if (part.owns(std::int64_t(node)) && rows && this->columnsAt(node))
       {
         this->ByRow.emplace_back(rows->Low, std::int64_t(node));
       }
@@ -83,12 +93,12 @@ private:
   std::optional<Between> columnsAt(std::size_t node) const
   {
     return pixelsAround(
-      (this->XY[2 * node] - this->Grid.West) / this->Grid.Pixel[0], this->Grid.Columns);
+      (nodeAt(this->Part, node).x - this->Grid.West) / this->Grid.Pixel[0], this->Grid.Columns);
   }
   std::optional<Between> rowsAt(std::size_t node) const
   {
     return pixelsAround(
-      (this->XY[2 * node + 1] - this->Grid.South) / this->Grid.Pixel[1], this->Grid.Rows);
+      (nodeAt(this->Part, node).y - this->Grid.South) / this->Grid.Pixel[1], this->Grid.Rows);
   }
 
   /// Pixels without a value are left out, and the weights of the others enlarged.
@@ -117,7 +127,7 @@ private:
     return total > 0 ? sum / total : notGiven;
   }
 
-  const std::vector<double>& XY;
+  const MeshPart& Part;
   const RasterGrid Grid;
   std::vector<std::pair<std::int64_t, std::int64_t>> ByRow; ///< row and node, ascending
   std::size_t Next = 0;                                     ///< in ByRow
@@ -140,12 +150,12 @@ std::pair<std::int64_t, std::int64_t> pixelsOver(
 }
 
 /// The part of the raster over the nodes; without pixels if it is elsewhere.
-RasterWindow windowOver(const std::vector<double>& xy, const RasterGrid& grid)
+RasterWindow windowOver(const MeshPart& part, const RasterGrid& grid)
 {
   Box2 bounds = Box2::empty();
-  for (std::size_t i = 0; i < xy.size(); i += 2)
+  for (std::int64_t node = 0; node < part.Mesh.PointCount; ++node)
   {
-    bounds.extend(Point2{ xy[i], xy[i + 1] });
+    bounds.extend(nodeAt(part, std::size_t(node)));
   }
   const auto [column, columns] =
     pixelsOver(bounds.Min.x, bounds.Max.x, grid.West, grid.Pixel[0], grid.Columns);
@@ -214,81 +224,186 @@ bool hasNoDepth(double value)
   return !std::isfinite(value);
 }
 
-/// Gives nodes without a value the mean of those of their triangles' other corners, in rounds: each
-/// uses the values from before the round. Returns the number of nodes that got one.
-std::int64_t fillFromNeighbours(TrianglesView triangles, std::vector<double>& values)
+/// Calls work(i) for the indices of nodes or triangles, which may be larger than memory.
+template <typename Work>
+void forAll(std::size_t count, const Work& work)
 {
-  std::vector<std::size_t> open; // triangles with a corner without a value
-  for (std::size_t t = 0; t < triangles.size(); ++t)
+  constexpr std::size_t often = 1 << 16;
+  for (std::size_t i = 0; i < count; ++i)
   {
-    open.push_back(t);
-  }
-  std::vector<double> sums(values.size(), 0);
-  std::vector<std::int32_t> counts(values.size(), 0);
-  std::int64_t filled = 0;
-  for (bool isDone = false; !isDone;)
-  {
-    poll();
-    const auto valueAt = [&](std::size_t t, int corner)
-    { return values[std::size_t(triangles.id(t, corner))]; };
-    open.erase(std::remove_if(open.begin(), open.end(),
-                 [&](std::size_t t) {
-                   return !hasNoDepth(valueAt(t, 0)) && !hasNoDepth(valueAt(t, 1)) &&
-                     !hasNoDepth(valueAt(t, 2));
-                 }),
-      open.end());
-    std::vector<std::size_t> reached;
-    for (const std::size_t t : open)
+    if (i % often == 0)
     {
-      for (int corner = 0; corner < 3; ++corner)
+      poll();
+      keepMemoryLimits();
+    }
+    work(i);
+  }
+}
+
+template <typename T>
+Buffer<T> zeros(std::size_t size, PagedMemory* memory)
+{
+  Buffer<T> buffer = bufferIn<T>(memory, size);
+  if (!memory) // else it has zeros, and they are nowhere yet
+  {
+    std::fill(buffer.begin(), buffer.end(), T(0));
+  }
+  return buffer;
+}
+
+/// Gives nodes without a value the mean of those of their triangles' other corners, in rounds: each
+/// uses the values from before the round.
+class NeighbourFill
+{
+public:
+  NeighbourFill(TrianglesView triangles, Buffer<double>& values, PagedMemory* memory)
+    : Triangles(triangles)
+    , Values(values)
+  {
+    std::size_t missing = 0;
+    forAll(values.size(), [&](std::size_t node) { missing += hasNoDepth(values[node]) ? 1 : 0; });
+    if (missing == 0 || missing == values.size())
+    {
+      return;
+    }
+    std::size_t open = 0;
+    forAll(triangles.size(), [&](std::size_t t) { open += this->isOpen(t) ? 1 : 0; });
+    this->Open = bufferIn<std::int32_t>(memory, open);
+    this->Sums = zeros<double>(values.size(), memory);
+    this->Counts = zeros<std::int32_t>(values.size(), memory);
+    this->Reached = bufferIn<std::int32_t>(memory, missing);
+    forAll(triangles.size(),
+      [&](std::size_t t)
       {
-        const auto node = std::size_t(triangles.id(t, corner));
-        for (int i = 0; i < 3 && hasNoDepth(values[node]); ++i)
+        if (this->isOpen(t))
         {
-          if (!hasNoDepth(valueAt(t, i)))
+          this->Open[this->OpenCount++] = std::int32_t(t);
+        }
+      });
+  }
+
+  /// Returns the number of nodes that got a value.
+  std::int64_t run()
+  {
+    std::int64_t filled = 0;
+    for (bool isDone = this->OpenCount == 0; !isDone; isDone = this->ReachedCount == 0)
+    {
+      this->ReachedCount = 0;
+      forAll(this->OpenCount, [this](std::size_t i) { this->add(std::size_t(this->Open[i])); });
+      forAll(this->ReachedCount,
+        [this](std::size_t i)
+        {
+          const auto node = std::size_t(this->Reached[i]);
+          this->Values[node] = this->Sums[node] / this->Counts[node];
+        });
+      filled += std::int64_t(this->ReachedCount);
+      this->dropFilled();
+    }
+    return filled;
+  }
+
+private:
+  std::size_t node(std::size_t t, int corner) const
+  {
+    return std::size_t(this->Triangles.id(t, corner));
+  }
+  double valueAt(std::size_t t, int corner) const { return this->Values[this->node(t, corner)]; }
+  /// Whether a corner has no value.
+  bool isOpen(std::size_t t) const
+  {
+    return hasNoDepth(this->valueAt(t, 0)) || hasNoDepth(this->valueAt(t, 1)) ||
+      hasNoDepth(this->valueAt(t, 2));
+  }
+
+  /// Adds the values of a triangle's corners to the sums of its corners without one.
+  void add(std::size_t t)
+  {
+    for (int corner = 0; corner < 3; ++corner)
+    {
+      const std::size_t to = this->node(t, corner);
+      for (int i = 0; i < 3 && hasNoDepth(this->Values[to]); ++i)
+      {
+        if (!hasNoDepth(this->valueAt(t, i)))
+        {
+          if (this->Counts[to]++ == 0)
           {
-            if (counts[node]++ == 0)
-            {
-              reached.push_back(node);
-            }
-            sums[node] += valueAt(t, i);
+            this->Reached[this->ReachedCount++] = std::int32_t(to);
           }
+          this->Sums[to] += this->valueAt(t, i);
         }
       }
     }
-    for (const std::size_t node : reached)
-    {
-      values[node] = sums[node] / counts[node];
-    }
-    filled += std::int64_t(reached.size());
-    isDone = reached.empty();
   }
-  return filled;
-}
+
+  void dropFilled()
+  {
+    std::size_t end = 0;
+    forAll(this->OpenCount,
+      [&](std::size_t i)
+      {
+        const std::int32_t t = this->Open[i];
+        if (this->isOpen(std::size_t(t)))
+        {
+          this->Open[end++] = t;
+        }
+      });
+    this->OpenCount = end;
+  }
+
+  const TrianglesView Triangles;
+  Buffer<double>& Values;
+  Buffer<std::int32_t> Open; ///< triangles with a corner without a value
+  std::size_t OpenCount = 0;
+  Buffer<double> Sums; ///< by node
+  Buffer<std::int32_t> Counts;
+  Buffer<std::int32_t> Reached; ///< the nodes that get a value in this round
+  std::size_t ReachedCount = 0;
+};
 
 /// Completes depths: fills nodes without a value, and turns the axis downwards.
 void completeDepths(TrianglesView triangles, const NodeDepthOptions& options, NodeDepths& depths)
 {
-  depths.FromOthers = fillFromNeighbours(triangles, depths.Values);
-  for (double& value : depths.Values)
-  {
-    depths.Missing += hasNoDepth(value) ? 1 : 0;
-    value = options.Axis == VerticalAxis::Elevations ? 0 - value : value;
-  }
+  depths.FromOthers = NeighbourFill(triangles, depths.Values, options.Memory).run();
+  forAll(depths.Values.size(),
+    [&](std::size_t node)
+    {
+      double& value = depths.Values[node];
+      depths.Missing += hasNoDepth(value) ? 1 : 0;
+      value = options.Axis == VerticalAxis::Elevations ? 0 - value : value;
+    });
 }
 
-} // namespace
-
-NodeDepths depthsFromRaster(const std::vector<double>& xy, TrianglesView triangles,
-  RasterValues& raster, NodeRule rule, const NodeDepthOptions& options)
+/// Sets the depths of the nodes that a part owns: the mean over the node's cell or, where it has
+/// none, the value at the node. Either may be null.
+void storeDepths(const MeshPart& part, const CellMeans* means, const std::vector<double>* atNodes,
+  NodeDepths& depths)
 {
-  RasterAtNodes atNodes(xy, raster.grid());
+  forAll(std::size_t(part.Mesh.PointCount),
+    [&](std::size_t node)
+    {
+      if (part.owns(std::int64_t(node)))
+      {
+        const double mean = means ? means->meanOf(node) : notGiven;
+        const double there = atNodes ? (*atNodes)[node] : notGiven;
+        depths.FromCells += hasNoDepth(mean) ? 0 : 1;
+        depths.AtNodes += hasNoDepth(mean) && !hasNoDepth(there) ? 1 : 0;
+        depths.Values[std::size_t(part.pointId(std::int64_t(node)))] =
+          hasNoDepth(mean) ? there : mean;
+      }
+    });
+}
+
+/// Sets the depths of the nodes that a part owns from a raster.
+void addFromRaster(const MeshPart& part, RasterValues& raster, NodeRule rule,
+  const NodeDepthOptions& options, NodeDepths& depths)
+{
+  RasterAtNodes atNodes(part, raster.grid());
   std::optional<CellMeans> means;
   if (rule == NodeRule::CellMean)
   {
-    means.emplace(xy, triangles, options.Threads);
+    means.emplace(part, options.Threads);
   }
-  const RasterWindow window = windowOver(xy, raster.grid());
+  const RasterWindow window = windowOver(part, raster.grid());
   if (window.Columns > 0 && window.Rows > 0)
   {
     const std::vector<double> x = columnCentres(raster.grid(), window);
@@ -302,21 +417,36 @@ NodeDepths depthsFromRaster(const std::vector<double>& xy, TrianglesView triangl
         }
       });
   }
+  storeDepths(part, means ? &*means : nullptr, &atNodes.Values, depths);
+}
+
+NodeStrips stripsOf(
+  const NodesView& nodes, TrianglesView triangles, const NodeDepthOptions& options)
+{
+  return { nodes, triangles,
+    options.Strips > 0 ? options.Strips : stripsFor(triangles.size(), options.Memory),
+    options.Memory };
+}
+
+} // namespace
+
+NodeDepths depthsFromRaster(const NodesView& nodes, TrianglesView triangles, RasterValues& raster,
+  NodeRule rule, const NodeDepthOptions& options)
+{
+  const NodeStrips strips = stripsOf(nodes, triangles, options);
   NodeDepths depths;
-  depths.Values = std::move(atNodes.Values);
-  for (std::size_t node = 0; node < depths.Values.size(); ++node)
+  depths.Values = bufferIn<double>(options.Memory, nodes.size());
+  std::fill(depths.Values.begin(), depths.Values.end(), notGiven); // also at unused nodes
+  for (std::size_t strip = 0; strip < strips.size(); ++strip)
   {
-    const double mean = means ? means->meanOf(node) : notGiven;
-    depths.FromCells += hasNoDepth(mean) ? 0 : 1;
-    depths.AtNodes += hasNoDepth(mean) && !hasNoDepth(depths.Values[node]) ? 1 : 0;
-    depths.Values[node] = hasNoDepth(mean) ? depths.Values[node] : mean;
+    addFromRaster(strips.part(strip), raster, rule, options, depths);
   }
   completeDepths(triangles, options, depths);
   return depths;
 }
 
-NodeDepths depthsFromPoints(const std::vector<double>& xy, TrianglesView triangles,
-  PointStream& points, const std::string& column, const NodeDepthOptions& options)
+NodeDepths depthsFromPoints(const NodesView& nodes, TrianglesView triangles, PointStream& points,
+  const std::string& column, const NodeDepthOptions& options)
 {
   const std::vector<std::string> names = points.columns();
   const auto found = std::find(names.begin(), names.end(), column);
@@ -326,30 +456,19 @@ NodeDepths depthsFromPoints(const std::vector<double>& xy, TrianglesView triangl
       listOfNames({ names.begin(), names.end() }, "; there are ") + ".");
   }
   const auto index = std::size_t(found - names.begin());
-  CellMeans means(xy, triangles, options.Threads);
-  std::vector<Point3> positions;
-  std::vector<double> known;
-  forEachBlock(points, std::size_t(itemsAtOnce),
-    [&](PointBlock& block)
-    {
-      positions.clear();
-      known.clear();
-      for (std::size_t i = 0; i < block.size(); ++i)
-      {
-        if (std::isfinite(block.Columns[index][i]))
-        {
-          positions.push_back({ block.XY[2 * i], block.XY[2 * i + 1], 0 });
-          known.push_back(block.Columns[index][i]);
-        }
-      }
-      means.add(positions, known);
-    });
+  const NodeStrips strips = stripsOf(nodes, triangles, options);
+  StripPoints stored(strips, points, index, options.Memory);
   NodeDepths depths;
-  depths.Values.resize(xy.size() / 2);
-  for (std::size_t node = 0; node < depths.Values.size(); ++node)
+  depths.Values = bufferIn<double>(options.Memory, nodes.size());
+  std::fill(depths.Values.begin(), depths.Values.end(), notGiven); // also at unused nodes
+  for (std::size_t strip = 0; strip < strips.size(); ++strip)
   {
-    depths.Values[node] = means.meanOf(node);
-    depths.FromCells += hasNoDepth(depths.Values[node]) ? 0 : 1;
+    const MeshPart part = strips.part(strip);
+    CellMeans means(part, options.Threads);
+    stored.forBlocks(strip, std::size_t(itemsAtOnce),
+      [&](const std::vector<Point3>& positions, const std::vector<double>& known)
+      { means.add(positions, known); });
+    storeDepths(part, &means, nullptr, depths);
   }
   completeDepths(triangles, options, depths);
   return depths;

@@ -3,18 +3,19 @@
 
 #include "Arrays/FindNeighbors.h"
 #include "Constraints/ConstraintEdges.h"
-#include "Parallel/CountingSort.h"
+#include "Files/PagedMemory.h"
 #include "Parallel/ParallelFor.h"
 #include "Predicates/Angles.h"
 #include "Predicates/ExactPredicates.h"
 #include "Predicates/Vectors.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <vector>
+#include <numeric>
 
 namespace tipp
 {
@@ -48,11 +49,13 @@ public:
     , Mesh(mesh)
     , Threads(threadCount(options.Threads))
     , Segments(mesh.Segments)
-    , Neighbors(mesh.Triangles.size())
+    , Neighbors(this->array<Index>(mesh.Triangles.size()))
   {
     const double sine = sineOfDegrees(options.MinimumAngle);
     this->LeastSineSquared = sine * sine * (1 + 1e-12); // rounding must not hide an angle
-    findNeighbors(mesh.Triangles.data(), mesh.triangleCount(), this->Neighbors.data());
+    Buffer<Index> lists = this->array<Index>(neighborLists(mesh.triangleCount()));
+    findNeighbors(
+      mesh.Triangles.data(), mesh.triangleCount(), this->Neighbors.data(), lists.data());
     this->findMovable();
     this->collectStars();
     this->assignColours();
@@ -61,6 +64,13 @@ public:
   void run(int rounds);
 
 private:
+  /// An array where the mesh is, with undefined values.
+  template <typename T>
+  Buffer<T> array(std::size_t size) const
+  {
+    return bufferIn<T>(this->Options.Memory, size);
+  }
+
   /// A corner of a triangle is given by its index among all corners.
   static std::size_t nextCorner(std::size_t slot) { return slot % 3 == 2 ? slot - 2 : slot + 1; }
   static std::size_t previousCorner(std::size_t slot)
@@ -106,6 +116,12 @@ private:
     return across < 0 || inCircle(p, a, b, this->at(this->vertexAt(std::size_t(across)))) <= 0;
   }
 
+  ///@{
+  /// The corners at a movable point.
+  const Index* starBegin(std::size_t i) const { return this->Stars.data() + this->StarBegins[i]; }
+  const Index* starEnd(std::size_t i) const { return this->starBegin(i + 1); }
+  ///@}
+
   void findMovable();
   void collectStars();
   void assignColours();
@@ -122,16 +138,20 @@ private:
   const ConstraintEdges Segments;
   Buffer<Index> Neighbors; ///< by corner: the triangle across the opposite edge, or -1
   double LeastSineSquared = 0;
-  std::vector<Index> Numbers; ///< by added point: its index among the movable ones, or -1
-  std::vector<Index> Movable; ///< vertices
-  GroupedItems<Index> Stars;  ///< by movable point: its corners
-  std::vector<std::vector<Index>> Colours; ///< movable points
+  Buffer<Index> Numbers;            ///< by added point: its index among the movable ones, or -1
+  Buffer<Index> Movable;            ///< vertices
+  Buffer<Index> Stars;              ///< corners, by movable point
+  Buffer<std::uint32_t> StarBegins; ///< by movable point, and one more: index in Stars
+  static constexpr std::size_t MostColours = 64;
+  Buffer<Index> Coloured;                                  ///< movable points, by colour
+  std::array<std::size_t, MostColours + 1> ColourBegins{}; ///< indices in Coloured
 };
 
 /// Added points inside the domain, except for corners of triangles that are not as asked.
 void Smoother::findMovable()
 {
-  this->Numbers.assign(this->Mesh.addedCount(), 0);
+  this->Numbers = this->array<Index>(this->Mesh.addedCount());
+  std::fill(this->Numbers.begin(), this->Numbers.end(), 0);
   const auto keep = [this](Index vertex)
   {
     if (this->isAdded(vertex))
@@ -151,40 +171,55 @@ void Smoother::findMovable()
       keep(this->vertexAt(slot + i));
     }
   }
+  this->Movable =
+    this->array<Index>(std::size_t(std::count(this->Numbers.begin(), this->Numbers.end(), 0)));
+  Index count = 0;
   for (std::size_t i = 0; i < this->Numbers.size(); ++i)
   {
     if (this->Numbers[i] == 0)
     {
-      this->Numbers[i] = Index(this->Movable.size());
-      this->Movable.push_back(Index(this->Points.size() + i));
+      this->Movable[std::size_t(count)] = Index(this->Points.size() + i);
+      this->Numbers[i] = count++;
     }
   }
 }
 
+/// Sorts the corners by their movable point, by counting.
 void Smoother::collectStars()
 {
-  this->Stars = GroupedItems<Index>(this->Movable.size(), 1,
-    [this](const auto& visit)
+  const auto forCorners = [this](const auto& visit)
+  {
+    for (std::size_t slot = 0; slot < this->Mesh.Triangles.size(); ++slot)
     {
-      for (std::size_t slot = 0; slot < this->Mesh.Triangles.size(); ++slot)
+      const Index vertex = this->vertexAt(slot);
+      const Index number = this->isAdded(vertex) ? this->Numbers[this->added(vertex)] : -1;
+      if (number >= 0)
       {
-        const Index vertex = this->vertexAt(slot);
-        const Index number = this->isAdded(vertex) ? this->Numbers[this->added(vertex)] : -1;
-        if (number >= 0)
-        {
-          visit(std::size_t(number), Index(slot));
-        }
+        visit(std::size_t(number), Index(slot));
       }
-    });
+    }
+  };
+  // While corners are stored, entry i + 1 is where the next one of point i is stored.
+  const std::size_t points = this->Movable.size();
+  this->StarBegins = this->array<std::uint32_t>(points + 2);
+  std::fill(this->StarBegins.begin(), this->StarBegins.end(), 0);
+  forCorners([this](std::size_t point, Index) { ++this->StarBegins[point + 2]; });
+  for (std::size_t i = 2; i < points + 2; ++i)
+  {
+    this->StarBegins[i] += this->StarBegins[i - 1];
+  }
+  this->Stars = this->array<Index>(this->StarBegins[points + 1]);
+  forCorners(
+    [this](std::size_t point, Index slot) { this->Stars[this->StarBegins[point + 1]++] = slot; });
 }
 
 /// Gives each movable point the first colour that none of the points has whose positions its move
 /// depends on: its neighbours, and the corners across its triangles. This relation is symmetric.
 void Smoother::assignColours()
 {
-  constexpr std::size_t most = 64;
-  std::vector<std::uint8_t> colours(this->Movable.size(), most);
-  this->Colours.resize(most);
+  constexpr std::size_t most = MostColours;
+  Buffer<std::uint8_t> colours = this->array<std::uint8_t>(this->Movable.size());
+  std::fill(colours.begin(), colours.end(), std::uint8_t(most));
   for (std::size_t i = 0; i < this->Movable.size(); ++i)
   {
     std::uint64_t taken = 0;
@@ -196,7 +231,7 @@ void Smoother::assignColours()
         taken |= std::uint64_t(1) << colours[std::size_t(other)];
       }
     };
-    for (const Index* slot = this->Stars.begin(i); slot != this->Stars.end(i); ++slot)
+    for (const Index* slot = this->starBegin(i); slot != this->starEnd(i); ++slot)
     {
       exclude(this->vertexAt(nextCorner(std::size_t(*slot))));
       const std::int64_t across = this->cornerAcross(std::size_t(*slot));
@@ -213,7 +248,18 @@ void Smoother::assignColours()
     if (colour < most) // if its neighbours have all colours, the point does not move
     {
       colours[i] = std::uint8_t(colour);
-      this->Colours[colour].push_back(Index(i));
+      ++this->ColourBegins[colour + 1];
+    }
+  }
+  std::partial_sum(
+    this->ColourBegins.begin(), this->ColourBegins.end(), this->ColourBegins.begin());
+  this->Coloured = this->array<Index>(this->ColourBegins.back());
+  std::array<std::size_t, most + 1> ends = this->ColourBegins;
+  for (std::size_t i = 0; i < this->Movable.size(); ++i)
+  {
+    if (colours[i] < most)
+    {
+      this->Coloured[ends[colours[i]]++] = Index(i);
     }
   }
 }
@@ -223,7 +269,7 @@ void Smoother::assignColours()
 double Smoother::shapeOf(std::size_t i, Point2 p) const
 {
   double least = std::numeric_limits<double>::infinity();
-  for (const Index* slot = this->Stars.begin(i); slot != this->Stars.end(i); ++slot)
+  for (const Index* slot = this->starBegin(i); slot != this->starEnd(i); ++slot)
   {
     const Point2 a = this->at(this->vertexAt(nextCorner(std::size_t(*slot))));
     const Point2 b = this->at(this->vertexAt(previousCorner(std::size_t(*slot))));
@@ -235,7 +281,7 @@ double Smoother::shapeOf(std::size_t i, Point2 p) const
 
 bool Smoother::isAllowed(std::size_t i, Point2 p) const
 {
-  return std::all_of(this->Stars.begin(i), this->Stars.end(i),
+  return std::all_of(this->starBegin(i), this->starEnd(i),
     [&](Index star)
     {
       const auto slot = std::size_t(star);
@@ -277,13 +323,13 @@ bool Smoother::move(std::size_t i)
   const Index vertex = this->Movable[i];
   const Point2 present = this->at(vertex);
   Point2 mean{ 0, 0 }; // as seen from the point, so that large coordinates do not matter
-  for (const Index* slot = this->Stars.begin(i); slot != this->Stars.end(i); ++slot)
+  for (const Index* slot = this->starBegin(i); slot != this->starEnd(i); ++slot)
   {
     const Point2 away = this->at(this->vertexAt(nextCorner(std::size_t(*slot)))) - present;
     mean.x += away.x;
     mean.y += away.y;
   }
-  const auto count = double(this->Stars.end(i) - this->Stars.begin(i));
+  const auto count = double(this->starEnd(i) - this->starBegin(i));
   constexpr double growth = 1 + 1e-3; // smaller gains are not worth a move
   const double least = std::max(growth * this->shapeOf(i, present), this->LeastSineSquared);
   for (const double step : { 1.0, 0.5, 0.25 })
@@ -303,27 +349,30 @@ bool Smoother::move(std::size_t i)
 /// Returns the number of moves; -1 if `report` stopped them.
 std::int64_t Smoother::moveColour(std::size_t colour, const Report& report)
 {
-  const std::vector<Index>& points = this->Colours[colour];
+  const Index* const points = this->Coloured.data() + this->ColourBegins[colour];
+  const std::size_t count = this->ColourBegins[colour + 1] - this->ColourBegins[colour];
   constexpr std::int64_t chunk = 512;
   std::atomic<std::int64_t> moves{ 0 };
-  const bool isDone = forChunks(std::int64_t(points.size()), chunk, this->Threads, report,
+  const bool isDone = forChunks(std::int64_t(count), chunk, this->Threads, report,
     [&](std::int64_t begin, std::int64_t end, int)
     {
-      moves += std::count_if(points.begin() + begin, points.begin() + end,
-        [this](Index i) { return this->move(std::size_t(i)); });
+      keepMemoryLimits();
+      moves += std::count_if(
+        points + begin, points + end, [this](Index i) { return this->move(std::size_t(i)); });
     });
   return isDone ? moves.load() : -1;
 }
 
 void Smoother::run(int rounds)
 {
-  const double parts = double(rounds) * double(this->Colours.size());
+  constexpr std::size_t colours = MostColours;
+  const double parts = double(rounds) * double(colours);
   for (int round = 0; round < rounds; ++round)
   {
     std::int64_t moves = 0;
-    for (std::size_t colour = 0; colour < this->Colours.size(); ++colour)
+    for (std::size_t colour = 0; colour < colours; ++colour)
     {
-      const double done = double(std::size_t(round) * this->Colours.size() + colour);
+      const double done = double(std::size_t(round) * colours + colour);
       const std::int64_t moved =
         this->moveColour(colour, partOf(this->Options.Progress, done / parts, (done + 1) / parts));
       if (moved < 0)

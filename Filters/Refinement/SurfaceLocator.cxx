@@ -25,7 +25,7 @@ double distanceToSegment(Point2 p, Point2 a, Point2 b)
 
 } // namespace
 
-void blendTuples(const std::vector<PointBlend>& blends, std::size_t points, Scalar type,
+void blendTuples(const Buffer<PointBlend>& blends, std::size_t points, Scalar type,
   std::size_t components, void* values)
 {
   appendTuples(blends, points, type, components, values,

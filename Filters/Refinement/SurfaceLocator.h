@@ -2,6 +2,7 @@
 #ifndef tippSurfaceLocator_h
 #define tippSurfaceLocator_h
 
+#include "Arrays/Buffer.h"
 #include "Arrays/Scalar.h"
 #include "Constraints/ConstraintEdges.h"
 #include "Locate/BoxTree.h"
@@ -44,7 +45,7 @@ struct PointBlend
 
 /// Sets the tuples of new points, which follow the first `points` tuples of an array, to means of
 /// tuples before them. Integers are rounded.
-VTKTIPPFILTERS_EXPORT void blendTuples(const std::vector<PointBlend>& blends, std::size_t points,
+VTKTIPPFILTERS_EXPORT void blendTuples(const Buffer<PointBlend>& blends, std::size_t points,
   Scalar type, std::size_t components, void* values);
 
 /// Finds positions on a triangulated surface over the plane. The triangles may have either

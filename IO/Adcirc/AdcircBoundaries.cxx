@@ -14,18 +14,18 @@ void addCountLine(std::string& text, std::size_t count, const char* what)
 }
 
 void addNodes(std::string& text, const std::vector<std::int64_t>& nodes,
-  const std::vector<std::int64_t>& numbers)
+  const std::function<std::int64_t(std::int64_t node)>& numberOf)
 {
   for (const std::int64_t node : nodes)
   {
-    text += std::to_string(numbers.at(std::size_t(node))) + "\n";
+    text += std::to_string(numberOf(node)) + "\n";
   }
 }
 
 } // namespace
 
-std::string boundaryLines(
-  const AdcircBoundaries& boundaries, const std::vector<std::int64_t>& numbers)
+std::string boundaryLines(const AdcircBoundaries& boundaries,
+  const std::function<std::int64_t(std::int64_t node)>& numberOf)
 {
   std::size_t openNodes = 0;
   for (const auto& nodes : boundaries.Open)
@@ -38,7 +38,7 @@ std::string boundaryLines(
   for (const auto& nodes : boundaries.Open)
   {
     addCountLine(text, nodes.size(), "number of nodes of this open boundary");
-    addNodes(text, nodes, numbers);
+    addNodes(text, nodes, numberOf);
   }
   std::size_t landNodes = 0;
   for (const AdcircBoundaries::LandBoundary& land : boundaries.Land)
@@ -51,7 +51,7 @@ std::string boundaryLines(
   {
     text += std::to_string(land.Nodes.size()) + " " + std::to_string(land.Kind) +
       " = number of nodes and kind of this land boundary\n";
-    addNodes(text, land.Nodes, numbers);
+    addNodes(text, land.Nodes, numberOf);
   }
   return text;
 }

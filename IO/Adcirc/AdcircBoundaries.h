@@ -3,6 +3,7 @@
 #define tippAdcircBoundaries_h
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -27,10 +28,10 @@ struct AdcircBoundaries
   std::vector<LandBoundary> Land;
 };
 
-/// The lines that follow the elements in a fort.14 or .gr3 file. `numbers` are the numbers of the
-/// nodes in the file. Throws std::out_of_range for a node that has no number.
-std::string boundaryLines(
-  const AdcircBoundaries& boundaries, const std::vector<std::int64_t>& numbers);
+/// The lines that follow the elements in a fort.14 or .gr3 file. `numberOf` returns the number of a
+/// node in the file.
+std::string boundaryLines(const AdcircBoundaries& boundaries,
+  const std::function<std::int64_t(std::int64_t node)>& numberOf);
 
 } // namespace tipp
 

@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <chrono>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <new>
 #include <set>
@@ -94,8 +95,9 @@ public:
     }
   }
 
-private:
   const std::uint64_t Limit;
+
+private:
   std::mutex Mutex;
   std::set<Range> Ranges;
   std::uint64_t Kept = 0; ///< bytes of files that stayed resident, such as the program's code
@@ -105,8 +107,10 @@ private:
 class PagedMemory::File : public GrowingMemory
 {
 public:
-  File(const std::string& folder, std::size_t size, std::shared_ptr<Pages> all)
+  File(const std::string& folder, const std::string& advice, std::size_t size,
+    std::shared_ptr<Pages> all)
     : Folder(folder)
+    , Advice(advice)
     , Descriptor(openUnnamed(folder))
     , Size(size)
     , All(std::move(all))
@@ -157,12 +161,14 @@ private:
     }
     if (problem != 0)
     {
-      errno = problem;
-      failToWrite(this->Folder);
+      throw IOError(this->Folder,
+        std::string("cannot hold the temporary files (") + std::strerror(problem) +
+          "); free space on its disk, or " + this->Advice + ".");
     }
   }
 
   const std::string Folder;
+  const std::string Advice;
   const int Descriptor;
   const std::size_t Size;
   const std::shared_ptr<Pages> All;
@@ -171,8 +177,9 @@ private:
   std::size_t Usable = 0; ///< bytes of the file
 };
 
-PagedMemory::PagedMemory(const std::string& folder, std::uint64_t limit)
+PagedMemory::PagedMemory(const std::string& folder, std::uint64_t limit, std::string advice)
   : Folder(folder.empty() ? "." : folder)
+  , Advice(std::move(advice))
   , All(std::make_shared<Pages>(limit))
 {
   close(openUnnamed(this->Folder)); // reports a folder that cannot be used at once
@@ -200,14 +207,31 @@ PagedMemory::~PagedMemory()
   this->Watch.join();
 }
 
+std::uint64_t PagedMemory::limit() const
+{
+  return this->All->Limit;
+}
+
 void PagedMemory::keepLimit()
 {
   this->All->keepLimit();
 }
 
+std::unique_ptr<PagedMemory> limitedMemory(
+  const std::string& folder, std::uint64_t limit, const std::string& advice)
+{
+  if (limit == 0)
+  {
+    return nullptr;
+  }
+  const std::string chosen =
+    folder.empty() ? std::filesystem::temp_directory_path().string() : folder;
+  return std::make_unique<PagedMemory>(chosen, limit, advice);
+}
+
 std::unique_ptr<GrowingMemory> PagedMemory::reserve(std::size_t size)
 {
-  return std::make_unique<File>(this->Folder, size, this->All);
+  return std::make_unique<File>(this->Folder, this->Advice, size, this->All);
 }
 
 } // namespace tipp

@@ -29,8 +29,10 @@ namespace tipp
 class VTKTIPPIO_EXPORT PagedMemory : public LimitedMemory
 {
 public:
-  /// `folder`: where the files are. `limit`: in bytes. Throws IOError if files cannot be made.
-  PagedMemory(const std::string& folder, std::uint64_t limit);
+  /// `folder`: where the files are. `limit`: in bytes. `advice`: the end of the message of a full
+  /// disk, such as "name another folder by --scratch". Throws IOError if files cannot be made.
+  PagedMemory(
+    const std::string& folder, std::uint64_t limit, std::string advice = "name another folder");
   /// Pages of arrays that still exist are no longer handed back.
   ~PagedMemory() override;
   PagedMemory(const PagedMemory&) = delete;
@@ -39,6 +41,8 @@ public:
   /// Hands pages back if more memory than the limit is resident. The thread does so, too, but may
   /// have to wait for a processor: loops over whole arrays call keepMemoryLimits().
   void keepLimit() override;
+
+  std::uint64_t limit() const; ///< in bytes
 
   /// Returns memory of `size` bytes, whose space on the disk is reserved as it grows, so that a
   /// full disk is an error of grow(), not a crash later. This and grow() throw IOError.
@@ -66,12 +70,18 @@ private:
   class Pages;
   class File;
   std::string Folder;
+  std::string Advice;
   std::shared_ptr<Pages> All; ///< shared with the files
   std::mutex Mutex;
   std::condition_variable End;
   bool IsEnding = false;
   std::thread Watch; ///< last, because it uses the others
 };
+
+/// Returns memory with a limit in bytes, as for PagedMemory; null if it is 0. An empty folder is
+/// the system's one for temporary files. Throws IOError.
+VTKTIPPIO_EXPORT std::unique_ptr<PagedMemory> limitedMemory(
+  const std::string& folder, std::uint64_t limit, const std::string& advice);
 
 /// Returns an array in `memory`, or in the process's own memory if it is null. Its values are
 /// undefined.

@@ -20,9 +20,9 @@
 namespace tipp
 {
 
-const PointTable::Column* findZ(const NodesView& nodes)
+const NodeColumn* findZ(const NodesView& nodes)
 {
-  for (const PointTable::Column& column : nodes.columns())
+  for (const NodeColumn& column : nodes.columns())
   {
     if (column.Name == "z" || column.Name == "Z")
     {
@@ -134,7 +134,7 @@ Cells(const Id*, std::size_t, std::size_t) -> Cells<Id>;
 
 XmlArray pointsArray(const NodesView& nodes)
 {
-  const PointTable::Column* const z = findZ(nodes);
+  const NodeColumn* const z = findZ(nodes);
   const auto coordinate = [&nodes, z](std::size_t i) {
     return i % 3 < 2 ? nodes[i / 3][i % 3] : z ? z->Values[i / 3] : 0;
   };
@@ -144,11 +144,11 @@ XmlArray pointsArray(const NodesView& nodes)
 XmlSection pointData(const NodesView& nodes, const MeshOptions& options)
 {
   XmlSection section{ "PointData", {}, "" };
-  for (const PointTable::Column& column : nodes.columns())
+  for (const NodeColumn& column : nodes.columns())
   {
     if (&column != findZ(nodes))
     {
-      section.Arrays.push_back(xmlArray(column.Name, column.Values.data(), nodes.size()));
+      section.Arrays.push_back(xmlArray(column.Name, column.Values, nodes.size()));
     }
   }
   const std::vector<std::int64_t>& ids = options.Representatives;
@@ -159,13 +159,14 @@ XmlSection pointData(const NodesView& nodes, const MeshOptions& options)
   return section;
 }
 
-XmlSection cellData(const std::vector<std::int64_t>& neighbors, std::size_t corners,
-  const std::vector<std::int64_t>& regions)
+XmlSection cellData(
+  const std::vector<std::int64_t>& neighbors, std::size_t corners, const RegionsView& regions)
 {
   XmlSection section{ "CellData", {}, "" };
   if (!regions.empty())
   {
-    section.Arrays.push_back(xmlArray("Region", regions.data(), regions.size()));
+    section.Arrays.push_back(computedXmlArray<std::int64_t>(
+      "Region", regions.size(), [regions](std::size_t i) { return regions[i]; }));
   }
   if (!neighbors.empty())
   {
@@ -264,10 +265,10 @@ UgridContent ugridOf(
   content.Node = [&nodes](std::int64_t node) { return nodes[std::size_t(node)]; };
   content.Corner = [&triangles](std::int64_t triangle, int corner)
   { return triangles.id(std::size_t(triangle), corner); };
-  for (const PointTable::Column& column : nodes.columns())
+  for (const NodeColumn& column : nodes.columns())
   {
     content.Arrays.push_back({ column.Name, "", "", Scalar::Float64, false, false,
-      [&column](std::size_t) { return column.Values.data(); } });
+      [&column](std::size_t) { return column.Values; } });
   }
   const std::vector<std::int64_t>& ids = options.Representatives;
   if (!ids.empty())
@@ -275,11 +276,10 @@ UgridContent ugridOf(
     content.Arrays.push_back({ "RepresentativePointId", "", "", Scalar::Int64, false, false,
       [&ids](std::size_t) { return ids.data(); } });
   }
-  const std::vector<std::int64_t>& regions = options.Regions;
-  if (!regions.empty())
+  if (!options.Regions.empty())
   {
-    content.Arrays.push_back({ "Region", "", "", Scalar::Int64, true, false,
-      [&regions](std::size_t) { return regions.data(); } });
+    content.Arrays.push_back({ "Region", "", "", Scalar::Int32, true, false,
+      [regions = options.Regions](std::size_t) { return regions.data(); } });
   }
   return content;
 }

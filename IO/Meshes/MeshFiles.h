@@ -25,8 +25,8 @@ struct Piece;
 /// The cell array of cells across facets.
 constexpr const char* neighborIdsName = "NeighborIds";
 
-/// The column that is the third coordinate in files: named z or Z; null if there is none.
-const PointTable::Column* findZ(const NodesView& nodes);
+/// The column of `nodes` that is the third coordinate in files: named z or Z; null: there is none.
+const NodeColumn* findZ(const NodesView& nodes);
 
 /// Creates a data set over the caller's memory, which must outlive it and must not be changed
 /// through it; only coordinates and cell offsets are copies. A column named z is the third

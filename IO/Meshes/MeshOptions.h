@@ -13,6 +13,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace tipp
@@ -57,49 +58,98 @@ private:
   std::size_t Count = 0;
 };
 
-/// A view of a mesh's nodes in the caller's memory: the points of a table, and further ones behind
-/// them if the table has no columns.
+/// A named column of numbers in the caller's memory, one per node.
+struct NodeColumn
+{
+  std::string Name;
+  const double* Values;
+};
+
+/// A view of a mesh's nodes in the caller's memory, in one or two parts.
 class NodesView
 {
 public:
   NodesView() = default;
   NodesView(const PointTable& table) // NOLINT(google-explicit-constructor): a table is such a view
-    : Table(&table)
-    , InTable(table.size())
+    : First(table.XY.data())
+    , FirstCount(table.size())
     , Count(table.size())
   {
+    for (const PointTable::Column& column : table.Columns)
+    {
+      this->Columns.push_back({ column.Name, column.Values.data() });
+    }
   }
-  /// `xy`: x and y of `count` points.
-  NodesView(const PointTable& table, const double* xy, std::size_t count)
-    : NodesView(table)
+  /// `xy`: x and y of each node, interleaved.
+  NodesView(const std::vector<double>& xy) // NOLINT(google-explicit-constructor): as above
+    : First(xy.data())
+    , FirstCount(xy.size() / 2)
+    , Count(xy.size() / 2)
   {
-    this->More = xy;
-    this->Count += count;
+  }
+  /// The nodes of `first`, and behind them `count` further ones with x and y at `more`. `columns`
+  /// replace those of `first`.
+  NodesView(
+    const PointTable& first, const double* more, std::size_t count, std::vector<NodeColumn> columns)
+    : First(first.XY.data())
+    , More(more)
+    , FirstCount(first.size())
+    , Count(first.size() + count)
+    , Columns(std::move(columns))
+  {
   }
 
   std::size_t size() const { return this->Count; }
   Point2 operator[](std::size_t node) const
   {
-    const bool isInTable = node < this->InTable;
     const double* const at =
-      isInTable ? &this->Table->XY[2 * node] : this->More + 2 * (node - this->InTable);
+      node < this->FirstCount ? this->First + 2 * node : this->More + 2 * (node - this->FirstCount);
     return { at[0], at[1] };
   }
-  /// The columns of the table.
-  const std::vector<PointTable::Column>& columns() const
-  {
-    static const std::vector<PointTable::Column> none;
-    return this->Table ? this->Table->Columns : none;
-  }
+  const std::vector<NodeColumn>& columns() const { return this->Columns; }
   std::vector<std::string> names() const
   {
-    return this->Table ? this->Table->names() : std::vector<std::string>();
+    std::vector<std::string> names;
+    for (const NodeColumn& column : this->Columns)
+    {
+      names.push_back(column.Name);
+    }
+    return names;
   }
 
 private:
-  const PointTable* Table = nullptr;
+  const double* First = nullptr;
   const double* More = nullptr;
-  std::size_t InTable = 0;
+  std::size_t FirstCount = 0;
+  std::size_t Count = 0;
+  std::vector<NodeColumn> Columns;
+};
+
+/// A view of the regions of triangles in the caller's memory.
+class RegionsView
+{
+public:
+  RegionsView() = default;
+  RegionsView(const std::int32_t* regions, std::size_t triangles)
+    : Regions(regions)
+    , Count(triangles)
+  {
+  }
+  // NOLINTNEXTLINE(google-explicit-constructor): an array is such a view
+  RegionsView(const std::vector<std::int32_t>& regions)
+    : RegionsView(regions.data(), regions.size())
+  {
+  }
+
+  bool empty() const { return this->Count == 0; }
+  std::size_t size() const { return this->Count; }
+  std::int32_t operator[](std::size_t triangle) const { return this->Regions[triangle]; }
+  const std::int32_t* data() const { return this->Regions; }
+  const std::int32_t* begin() const { return this->Regions; }
+  const std::int32_t* end() const { return this->Regions + this->Count; }
+
+private:
+  const std::int32_t* Regions = nullptr;
   std::size_t Count = 0;
 };
 
@@ -119,7 +169,7 @@ struct MeshOptions
   AdcircBoundaries Boundaries;
   /// The region of each triangle: a material in .2dm, a physical group in .msh, an attribute in
   /// .ele, the cell array "Region" in .vtp and .vtu. Empty: no regions.
-  std::vector<std::int64_t> Regions;
+  RegionsView Regions;
   /// Edges of the mesh as pairs of point ids, which Triangle's .poly lists. Empty: no such file.
   std::vector<std::array<std::int64_t, 2>> Segments;
   std::vector<Point2> Holes; ///< points in holes, for the same file

@@ -55,7 +55,7 @@ namespace
 /// `second` are indices of columns, or the number of columns.
 NodeValues valuesOrNegated(const NodesView& nodes, std::size_t first, std::size_t second)
 {
-  const std::vector<PointTable::Column>& columns = nodes.columns();
+  const std::vector<NodeColumn>& columns = nodes.columns();
   if (first < columns.size())
   {
     return { &columns[first], false };
@@ -66,7 +66,7 @@ NodeValues valuesOrNegated(const NodesView& nodes, std::size_t first, std::size_
 std::size_t findDepth(const NodesView& nodes)
 {
   const auto found = std::find_if(nodes.columns().begin(), nodes.columns().end(),
-    [](const PointTable::Column& column) { return lowerCase(column.Name) == "depth"; });
+    [](const NodeColumn& column) { return lowerCase(column.Name) == "depth"; });
   return std::size_t(found - nodes.columns().begin());
 }
 

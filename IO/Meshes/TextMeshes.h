@@ -56,7 +56,7 @@ void requireFinite(const std::string& path, const NodesView& nodes);
 /// Values of nodes: those of a column, which may be negated, or zeros.
 struct NodeValues
 {
-  const PointTable::Column* Column = nullptr; ///< null: zeros
+  const NodeColumn* Column = nullptr; ///< null: zeros
   bool IsNegated = false;
 
   double operator[](std::size_t node) const

@@ -51,28 +51,28 @@ vtkSmartPointer<Array> borrow(const Value* values, std::size_t count)
   return array;
 }
 
-void setPoints(const PointTable& table, vtkPointSet* data)
+void setPoints(const NodesView& nodes, vtkPointSet* data)
 {
-  const std::size_t count = table.size();
-  const PointTable::Column* const z = findZ(table);
+  const std::size_t count = nodes.size();
+  const NodeColumn* const z = findZ(nodes);
   vtkNew<vtkDoubleArray> xyz;
   xyz->SetNumberOfComponents(3);
   xyz->SetNumberOfTuples(vtkIdType(count));
   double* const to = xyz->GetPointer(0);
   for (std::size_t i = 0; i < count; ++i)
   {
-    to[3 * i] = table.XY[2 * i];
-    to[3 * i + 1] = table.XY[2 * i + 1];
+    to[3 * i] = nodes[i].x;
+    to[3 * i + 1] = nodes[i].y;
     to[3 * i + 2] = z ? z->Values[i] : 0;
   }
   vtkNew<vtkPoints> points;
   points->SetData(xyz);
   data->SetPoints(points);
-  for (const PointTable::Column& column : table.Columns)
+  for (const NodeColumn& column : nodes.columns())
   {
     if (&column != z)
     {
-      const auto array = borrow<vtkDoubleArray>(column.Values.data(), count);
+      const auto array = borrow<vtkDoubleArray>(column.Values, count);
       array->SetName(column.Name.c_str());
       data->GetPointData()->AddArray(array);
     }

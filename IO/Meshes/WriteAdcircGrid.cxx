@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -18,31 +19,46 @@ namespace tipp
 namespace
 {
 
-/// The numbers of a grid's nodes, in the order of the file `path`, and of further nodes up to
-/// `points`. Throws IOError if these would exceed 64 bits.
-std::vector<std::int64_t> nodeNumbers(
-  const std::string& path, const AdcircGrid& grid, std::size_t points)
+/// The numbers of a grid's nodes, in the order of its file, and of further nodes.
+class GridNumbers
 {
-  constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
-  std::vector<std::int64_t> numbers(grid.IndexOf.size());
-  std::int64_t last = numbers.empty() ? 0 : std::numeric_limits<std::int64_t>::min();
-  for (const auto& [number, index] : grid.IndexOf)
+public:
+  /// `points`: the number of all nodes. Throws IOError if the numbers would exceed 64 bits.
+  GridNumbers(const std::string& path, const AdcircGrid& grid, std::size_t points)
+    : Known(grid.IndexOf.size())
+    , Count(std::max(points, this->Known.size()))
   {
-    numbers[std::size_t(index)] = number;
-    last = std::max(last, number);
-  }
-  while (numbers.size() < points)
-  {
-    if (last == most)
+    this->Last = this->Known.empty() ? 0 : std::numeric_limits<std::int64_t>::min();
+    for (const auto& [number, index] : grid.IndexOf)
+    {
+      this->Known[std::size_t(index)] = number;
+      this->Last = std::max(this->Last, number);
+    }
+    const auto more = std::int64_t(this->Count - this->Known.size());
+    if (this->Last > std::numeric_limits<std::int64_t>::max() - more)
     {
       throw IOError(path,
         "has the largest node number possible, so new nodes cannot be numbered; renumber its "
         "nodes.");
     }
-    numbers.push_back(++last);
   }
-  return numbers;
-}
+
+  /// Throws std::out_of_range for a node that does not exist.
+  std::int64_t operator[](std::size_t node) const
+  {
+    if (node >= this->Count)
+    {
+      throw std::out_of_range("A boundary has a node that the mesh does not have.");
+    }
+    return node < this->Known.size() ? this->Known[node]
+                                     : this->Last + 1 + std::int64_t(node - this->Known.size());
+  }
+
+private:
+  std::vector<std::int64_t> Known; ///< of the grid's nodes
+  std::size_t Count;
+  std::int64_t Last = 0; ///< the largest one known
+};
 
 } // namespace
 
@@ -56,7 +72,7 @@ bool writeAdcircGrid(const std::string& path, const NodesView& nodes, TrianglesV
   {
     frame = readAdcircNodes(options.AdcircLike);
   }
-  const std::vector<std::int64_t> numbers = nodeNumbers(options.AdcircLike, frame, nodes.size());
+  const GridNumbers numbers(options.AdcircLike, frame, nodes.size());
   const NodeValues depths = depthsOf(nodes);
   PendingFile pending(path, options.Before);
   OutputStream out(pending.file());
@@ -77,7 +93,9 @@ bool writeAdcircGrid(const std::string& path, const NodesView& nodes, TrianglesV
     }
     out << line << "\n";
   }
-  out << (frame.Boundaries.empty() ? boundaryLines(options.Boundaries, numbers) : frame.Boundaries);
+  const auto numberOf = [&numbers](std::int64_t node) { return numbers[std::size_t(node)]; };
+  out << (frame.Boundaries.empty() ? boundaryLines(options.Boundaries, numberOf)
+                                   : frame.Boundaries);
   return finishMesh(out, pending, options);
 }
 

@@ -44,7 +44,7 @@ void writeGmshElements(OutputStream& out, TrianglesView triangles, const MeshOpt
   std::string line;
   for (std::size_t t = 0; t < triangles.size(); ++t)
   {
-    const std::int64_t region = options.Regions.empty() ? 0 : options.Regions[t];
+    const std::int32_t region = options.Regions.empty() ? 0 : options.Regions[t];
     // Type 2, a triangle, and two tags: the physical group, or 0 for none, and the surface, which
     // must be positive.
     line = std::to_string(t + 1) + " 2 2 " + std::to_string(region) + ' ' +

@@ -20,8 +20,8 @@ namespace
 /// attributes have no names.
 void writeVertices(const OutputFile& file, const NodesView& nodes)
 {
-  std::vector<const PointTable::Column*> attributes;
-  for (const PointTable::Column& column : nodes.columns())
+  std::vector<const NodeColumn*> attributes;
+  for (const NodeColumn& column : nodes.columns())
   {
     attributes.push_back(&column);
   }
@@ -38,7 +38,7 @@ void writeVertices(const OutputFile& file, const NodesView& nodes)
     line = std::to_string(i + 1);
     appendNumber(line, nodes[i].x);
     appendNumber(line, nodes[i].y);
-    for (const PointTable::Column* const column : attributes)
+    for (const NodeColumn* const column : attributes)
     {
       appendNumber(line, column->Values[i]);
     }
@@ -47,8 +47,7 @@ void writeVertices(const OutputFile& file, const NodesView& nodes)
   out.finish();
 }
 
-void writeElementRows(
-  const OutputFile& file, TrianglesView triangles, const std::vector<std::int64_t>& regions)
+void writeElementRows(const OutputFile& file, TrianglesView triangles, const RegionsView& regions)
 {
   OutputStream out(file);
   out << triangles.size() << " 3 " << (regions.empty() ? 0 : 1) << "\n";

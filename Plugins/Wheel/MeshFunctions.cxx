@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Binding.h"
+#include "Files/PagedMemory.h"
 #include "Files/RawArray.h"
 #include "Parallel/ParallelFor.h"
 #include "Refinement/MeshPoints.h"
@@ -13,6 +14,8 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <limits>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <tuple>
@@ -102,6 +105,9 @@ nb::dict meshArrays(const InputArray& points, const InputArray& pairs, std::size
     request.Surface = &sizes;
   }
   std::vector<std::string> warnings;
+  const std::unique_ptr<PagedMemory> memory = limitedMemory(of<std::string>(given, "scratch"),
+    of<std::uint64_t>(given, "memory"), "give another folder as scratch");
+  request.Refinement.Memory = memory.get();
   const ThreadLimit limit(request.Refinement.Threads);
   PointsMesh mesh = withoutLock([&] { return meshPoints(viewOf(points), request, warnings); });
   reporter.finish();
@@ -115,9 +121,9 @@ nb::dict meshArrays(const InputArray& points, const InputArray& pairs, std::size
 /// each, with the weights. Both have a row for each new point, as meshArrays() returns them.
 nb::object blend(const InputArray& values, const InputArray& ids, const InputArray& weights)
 {
-  std::vector<PointBlend> blends;
   const auto rows = vectorOf<std::array<std::int64_t, 3>>(ids);
   const auto shares = vectorOf<std::array<double, 3>>(weights);
+  Buffer<PointBlend> blends(rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i)
   {
     for (const std::int64_t id : rows[i])
@@ -127,7 +133,7 @@ nb::object blend(const InputArray& values, const InputArray& ids, const InputArr
         throw std::runtime_error("an array has fewer values than there are points.");
       }
     }
-    blends.push_back({ rows[i], shares[i] });
+    blends[i] = { rows[i], shares[i] };
   }
   const Scalar type = scalarOf(values.dtype());
   const std::size_t columns = componentsOf(values);

@@ -177,9 +177,9 @@ class vtkTIPPRefine2D(_WithHoles):
     PROPERTIES = {
         "MinimumAngle": 30.0, "MaximumArea": 0.0, "SizeArrayName": "", "ShortestEdge": 0.0, "KeepBorder": False,
         "KeepSegments": False, "Convex": False, "SplitCrossings": True, "GenerateSegments": False, "MostPoints": 0,
-        "SmoothingRounds": 0, "NumberOfThreads": 0,
+        "SmoothingRounds": 0, "MemoryLimit": 0, "ScratchFolder": "", "NumberOfThreads": 0,
     }
-    LIMITS = {"NumberOfThreads": (0, 4096)}
+    LIMITS = {"MemoryLimit": (0, (1 << 63) - 1), "NumberOfThreads": (0, 4096)}
     INPUTS = ("vtkPolyData", "vtkPointSet")
     OPTIONAL_INPUTS = (1,)
     INPUT_NAMES = {"Size": 1}

@@ -68,7 +68,7 @@ TABLE = {
                     "map_duplicates": FLAG, "neighbors": FLAG, "return_statistics": FLAG, "return_type": RETURN_TYPE,
                     "partitions": (THREADS[0], [-1, 513]), "threads": THREADS, "progress_bar": FLAG},
     "delaunay_file": {"points": (PATH[0] + [[None], {"a": 1}], PATH[1]), "output": PATH,
-                      "dimension": (THREADS[0], [0, 1, 4]), "memory": (BYTES[0], BYTES[1] + ["", "2T", "1.5G", "9" * 40]), "partitions": COUNTS,
+                      "dimension": (THREADS[0], [0, 1, 4]), "memory": (BYTES[0], BYTES[1] + ["", "2X", "1.5G", "9" * 40]), "partitions": COUNTS,
                       "columns": COLUMNS, "max_edge": LENGTH, "map_duplicates": FLAG, "neighbors": FLAG,
                       "constraints": PATH_OR_NONE, "boundary": PATH_OR_NONE,
                       "holes": ([3, 1.5, True, "ab", [None], [[None, 1]]], [[[1]], [[1, NAN]]]),
@@ -81,7 +81,7 @@ TABLE = {
             "duplicates": (TEXT[0], ["second"]), "thin": ([3, "2", [None, "min"], [1.5, 2]], [[0, "min"], [1], [1, "good"]]),
             "classes": ([3, "2", [None], [1.5]], [[256], [-1]]), "returns": (TEXT[0], ["second"]),
             "keep": ([3, 1.5, {"f": 1}, [None], [1]], [["good"]]), "breaklines": PATH_OR_NONE, "boundary": PATH_OR_NONE,
-            "soft": FLAG, "memory": (BYTES[0][1:], BYTES[1] + ["", "2T", "1.5G"]), "threads": THREADS, "progress_bar": FLAG,
+            "soft": FLAG, "memory": (BYTES[0][1:], BYTES[1] + ["", "2X", "1.5G"]), "threads": THREADS, "progress_bar": FLAG,
             "z": (TEXT[0], []), "layer": (TEXT[0], []), "crs": (TEXT[0], [])},
     "mesh": {"points": ARRAY,
              "segments": (["text", {}], [3, [1, 2], np.zeros((3, 3), int), np.zeros((3, 2)), [[0, 10**9]], [[0, -1]]]),
@@ -93,7 +93,8 @@ TABLE = {
              "convex": FLAG, "keep_border": FLAG, "keep_segments": FLAG, "shortest_edge": LENGTH,
              "most_points": (THREADS[0], [0, -1, 10**30]), "smooth": (THREADS[0], [-1, 10**30]),
              "crossings": (TEXT[0], ["join"]), "marks": (TEXT[0], ["flags"]),
-             "point_data": POINT_DATA, "return_type": RETURN_TYPE, "threads": THREADS, "progress_bar": FLAG},
+             "point_data": POINT_DATA, "memory": (BYTES[0][1:], BYTES[1] + ["", "2X"]), "scratch": PATH_OR_NONE,
+             "return_type": RETURN_TYPE, "threads": THREADS, "progress_bar": FLAG},
     "triangulate": {"tri": ([None, 3, "text", [], POINTS], [{}, {"vertices": np.zeros((3, 3))}, {"vertices": POINTS, "points": 1}]),
                     "opts": (TEXT[0], ["pD", "q35", "a0", "q.", "r"]), "threads": THREADS},
     "resample": {"mesh": DATA, "bounds": BOUNDS, "dimensions": DIMENSIONS, "spacing": SPACING,
@@ -114,7 +115,7 @@ TABLE = {
               "edges": (["text", {}], [3, [1, 2], np.zeros((3, 3), int), np.zeros((3, 2))]),
               "tie_rule": FLAG, "boundary_free": FLAG},
     "open": {"mesh": ([None, 3, {}, [], np.zeros((3, 3)), vtkPolyData], ["a\0b"]),
-             "memory": (BYTES[0], BYTES[1] + ["", "2T", "1.5G"]), "step": ([None, "1", 1.5, True, [1]], [-1]), "threads": THREADS},
+             "memory": (BYTES[0], BYTES[1] + ["", "2X", "1.5G"]), "step": ([None, "1", 1.5, True, [1]], [-1]), "threads": THREADS},
     "ranks": {},
 }
 if IS_WHEEL:
@@ -194,9 +195,9 @@ class Arguments(unittest.TestCase):
 
     def test_memory_has_any_unit_in_any_case(self):
         for text, size in (("1 GB", 1 << 30), ("512M", 1 << 29), ("64 MiB", 1 << 26), ("64mb", 1 << 26), ("7 kB", 7 << 10),
-                           ("7K", 7 << 10), ("100 B", 100), ("100b", 100), ("2  gib", 1 << 31)):
+                           ("7K", 7 << 10), ("100 B", 100), ("100b", 100), ("2  gib", 1 << 31), ("1T", 1 << 40)):
             self.assertEqual(size, tipp._arguments.memory(text, "memory"), text)
-        for text in ("1 G B", "GB", "1 TB", "1e9", "-1 GB", "0 GB", "5iB", "1 GB GB"):
+        for text in ("1 G B", "GB", "1 XB", "1e9", "-1 GB", "0 GB", "5iB", "1 GB GB"):
             with self.assertRaisesRegex(ValueError, "^memory is"):
                 tipp._arguments.memory(text, "memory")
 

@@ -2,6 +2,8 @@
 """tipp.mesh: meshes of bounded angles and sizes. Runs with and without VTK."""
 import importlib.util
 import math
+import os
+import tempfile
 import unittest
 
 import numpy as np
@@ -100,6 +102,17 @@ class Bounds(unittest.TestCase):
         mesh = tipp.mesh(SQUARES, OUTER, max_area=0.5, keep_segments=True, marks="lines")
         self.assertEqual(4, len(mesh.lines))
         self.assertEqual({0, 3}, set(mesh.cell_data["OutsideBounds"].tolist()))
+
+    def test_a_memory_limit_does_not_matter(self):
+        options = {"max_area": 0.001, "regions": [(1, 1, 0.01)], "smooth": 2, "point_data": {"level": SQUARES[:, 0]}}
+        expected = tipp.mesh(SQUARES, OUTER, **options)
+        with tempfile.TemporaryDirectory() as folder:
+            found = tipp.mesh(SQUARES, OUTER, memory="1M", scratch=folder, **options)
+            self.assertEqual([], os.listdir(folder))
+        np.testing.assert_array_equal(expected.points, found.points)
+        np.testing.assert_array_equal(expected.cells, found.cells)
+        np.testing.assert_array_equal(expected.point_data["level"], found.point_data["level"])
+        np.testing.assert_array_equal(expected.cell_data["Region"], found.cell_data["Region"])
 
     def test_most_points(self):
         mesh = tipp.mesh(SQUARES, OUTER, max_area=0.01, most_points=10)
@@ -258,6 +271,9 @@ class Misuse(unittest.TestCase):
     def assert_refused(self, kind, message, *arguments, **keywords):
         with self.assertRaisesRegex(kind, message):
             tipp.mesh(*arguments, **keywords)
+
+    def test_a_scratch_folder_needs_a_memory_limit(self):
+        self.assert_refused(ValueError, "scratch has no effect without memory", SQUARES, scratch=".")
 
     def test_arguments(self):
         self.assert_refused(ValueError, "min_angle is 40; give at most 34 degrees", SQUARES, min_angle=40)

@@ -7,7 +7,7 @@
 #include "Constraints/ReadRegions.h"
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
-#include "Files/MemoryLimits.h"
+#include "Files/PagedMemory.h"
 #include "InMemory/TriangulateTable.h"
 #include "Raster/RasterValues.h"
 #include "Refinement/HolePoints.h"
@@ -87,11 +87,28 @@ RefinementOptions refinementOptions(const MeshArguments& arguments)
   return options;
 }
 
-/// Appends the first `count` of the points that the mesh has beyond those of the table, with
-/// interpolated columns.
-void appendPoints(const PointsMesh& mesh, std::size_t count, PointTable& points)
+/// Returns the values of a column at all points of the mesh, in `memory`.
+Buffer<double> extended(const PointsMesh& mesh, std::vector<double>&& values, PagedMemory* memory)
 {
-  points.XY.insert(points.XY.end(), mesh.NewXY.begin(), mesh.NewXY.begin() + 2 * count);
+  Buffer<double> all = bufferIn<double>(memory, values.size() + mesh.Blends.size());
+  double* to = std::copy(values.begin(), values.end(), all.begin());
+  values = {};
+  constexpr std::size_t often = 1 << 15;
+  for (std::size_t i = 0; i < mesh.Blends.size(); ++i)
+  {
+    if (i % often == 0)
+    {
+      keepMemoryLimits();
+    }
+    *to++ = mesh.Blends[i].valueOf([&all](PointId id) { return all[std::size_t(id)]; });
+  }
+  return all;
+}
+
+/// Appends the points that the mesh has beyond those of the table, with interpolated columns.
+void appendPoints(const PointsMesh& mesh, PointTable& points)
+{
+  points.XY.insert(points.XY.end(), mesh.NewXY.begin(), mesh.NewXY.end());
   for (PointTable::Column& column : points.Columns)
   {
     for (const PointBlend& blend : mesh.Blends)
@@ -102,27 +119,36 @@ void appendPoints(const PointsMesh& mesh, std::size_t count, PointTable& points)
   }
 }
 
-/// Of the first rows of a table, keeps those whose number is not negative, and all others.
-void keepRows(const std::vector<std::int64_t>& numbers, PointTable& points)
+/// Of the first `Width`-tuples of an array, keeps those whose number is not negative, and all
+/// others. Returns the number of values.
+template <std::size_t Width>
+std::size_t keepRows(const std::vector<std::int64_t>& numbers, double* values, std::size_t size)
 {
   std::size_t end = 0;
-  for (std::size_t i = 0; i < points.size(); ++i)
+  for (std::size_t row = 0; row < size / Width; ++row)
   {
-    if (i >= numbers.size() || numbers[i] >= 0)
+    if (row >= numbers.size() || numbers[row] >= 0)
     {
-      points.XY[2 * end] = points.XY[2 * i];
-      points.XY[2 * end + 1] = points.XY[2 * i + 1];
-      for (PointTable::Column& column : points.Columns)
-      {
-        column.Values[end] = column.Values[i];
-      }
-      ++end;
+      std::copy_n(values + Width * row, Width, values + end);
+      end += Width;
     }
   }
-  points.XY.resize(2 * end);
-  for (PointTable::Column& column : points.Columns)
+  return end;
+}
+
+/// Keeps the points whose number is not negative, and those that have none.
+void keepPoints(const std::vector<std::int64_t>& numbers, MadeMesh& made)
+{
+  std::vector<double>& xy = made.Points.XY;
+  xy.resize(keepRows<2>(numbers, xy.data(), xy.size()));
+  for (PointTable::Column& column : made.Points.Columns)
   {
-    column.Values.resize(end);
+    std::vector<double>& values = column.Values;
+    values.resize(keepRows<1>(numbers, values.data(), values.size()));
+  }
+  for (Buffer<double>& values : made.Columns)
+  {
+    values.truncate(keepRows<1>(numbers, values.data(), values.size()));
   }
 }
 
@@ -164,7 +190,7 @@ std::int64_t removeUnused(const std::vector<char>& isUsed, MadeMesh& made)
   {
     const auto numberOf = [&](std::int64_t id)
     { return std::size_t(id) < count ? numbers[std::size_t(id)] : id - left; };
-    keepRows(numbers, made.Points);
+    keepPoints(numbers, made);
     forSlices(made.Triangles,
       [&](std::int32_t* begin, const std::int32_t* end)
       {
@@ -220,7 +246,7 @@ void checkDepths(const MeshArguments& arguments, const MadeMesh& made)
   {
     return;
   }
-  if (missing == std::int64_t(made.Points.size()))
+  if (missing == std::int64_t(made.nodeCount()))
   {
     throw IOError(path,
       "has no depth at any node; give a file of the same area, in the same reference system.");
@@ -250,19 +276,20 @@ void requireColumn(
   }
 }
 
-/// Sets the column depth of the nodes. Throws IOError.
-void addDepths(const MeshArguments& arguments, MadeMesh& made)
+/// Computes the depths of the nodes, which replace a column of this name. Throws IOError.
+void addDepths(const MeshArguments& arguments, PagedMemory* memory, MadeMesh& made)
 {
   const std::string& path = arguments.Sizes.Depth;
   const std::optional<Box2>& bounds = arguments.Sizes.RasterBounds;
   NodeDepthOptions options;
   options.Axis = arguments.Sizes.DepthIsElevation ? VerticalAxis::Elevations : VerticalAxis::Depths;
   options.Threads = arguments.Threads;
+  options.Memory = memory;
   if (arguments.depthsAreRaster())
   {
     const auto raster =
       isOpenedBy(path, Opener::Npy) ? openNpyRaster(path, *bounds) : openRasterValues(path);
-    made.Depths = depthsFromRaster(made.Points.XY, viewOf(made), *raster,
+    made.Depths = depthsFromRaster(made.nodes(), viewOf(made), *raster,
       arguments.DepthsAtNodes ? NodeRule::AtNode : NodeRule::CellMean, options);
   }
   else
@@ -272,14 +299,9 @@ void addDepths(const MeshArguments& arguments, MadeMesh& made)
       : arguments.Sizes.DepthIsElevation                            ? "z"
                                                                     : "depth";
     requireColumn(path, points->columns(), column);
-    made.Depths = depthsFromPoints(made.Points.XY, viewOf(made), *points, column, options);
+    made.Depths = depthsFromPoints(made.nodes(), viewOf(made), *points, column, options);
   }
   checkDepths(arguments, made);
-  auto& columns = made.Points.Columns;
-  columns.erase(std::remove_if(columns.begin(), columns.end(),
-                  [](const PointTable::Column& column) { return column.Name == "depth"; }),
-    columns.end());
-  columns.push_back({ "depth", made.Depths->Values });
 }
 
 /// The closed lines of a boundary, without repeated corners. Its edges may come in any order and
@@ -331,20 +353,20 @@ OpenNodes openNodesOf(const MeshArguments& arguments, const MadeMesh& made)
 {
   if (arguments.OpenDepth)
   {
-    return nodesDeeperThan(made.Depths->Values, *arguments.OpenDepth);
+    return nodesDeeperThan(made.Depths->Values.data(), *arguments.OpenDepth);
   }
   if (arguments.OpenPolygon.empty())
   {
     return [](std::int64_t) { return false; };
   }
-  return nodesInside(made.Points.XY, ringsOf(readBoundary(arguments.OpenPolygon)));
+  return nodesInside(made.nodes(), ringsOf(readBoundary(arguments.OpenPolygon)));
 }
 
 void findBoundaries(const MeshArguments& arguments, MadeMesh& made)
 {
   const LandKinds ofSchism{ 0, 1 };
-  made.Boundaries = findModelBoundaries(made.Points.XY, viewOf(made), openNodesOf(arguments, made),
-    extensionOf(arguments.Output) == ".gr3" ? ofSchism : LandKinds());
+  made.Boundaries = findModelBoundaries(made.nodes(), viewOf(made), openNodesOf(arguments, made),
+    extensionOf(arguments.Output) == ".gr3" ? ofSchism : LandKinds(), made.Segments);
   if (arguments.isOpen() && made.Boundaries.Lists.Open.empty())
   {
     fmt::print(stderr,
@@ -406,32 +428,31 @@ SizeFunction makeSizes(const MeshArguments& arguments, const PointTable& points,
     sizes, lines, domainOf(arguments, points, lines), arguments.Threads, progress);
 }
 
-/// Throws IOError if the input has columns, which need the mesh in memory.
-void requireNoColumns(const MeshArguments& arguments, const PointTable& points)
+/// Takes the nodes over from a mesh: in `memory`, unless that is null, only the crossings become
+/// rows of the table.
+void takeNodes(PointsMesh& mesh, PagedMemory* memory, MadeMesh& made)
 {
-  if (!points.Columns.empty())
+  if (!memory)
   {
-    const std::string& path =
-      arguments.Points.empty() ? arguments.Constraints.name() : arguments.Points.front();
-    throw IOError(path,
-      "has the column '" + points.Columns.front().Name +
-        "', which --memory cannot interpolate; leave out --memory, or the column.");
+    appendPoints(mesh, made.Points);
+    return;
+  }
+  made.InTable = std::size_t(mesh.Crossings);
+  std::vector<double>& xy = made.Points.XY;
+  xy.insert(xy.end(), mesh.NewXY.begin(), mesh.NewXY.begin() + 2 * made.InTable);
+  made.NewXY = std::move(mesh.NewXY);
+  for (PointTable::Column& column : made.Points.Columns)
+  {
+    made.Columns.push_back(extended(mesh, std::move(column.Values), memory));
   }
 }
 
 /// Takes the nodes, triangles and segments over from a mesh.
-void takeMesh(const MeshArguments& arguments, PointsMesh&& mesh, MadeMesh& made)
+void takeMesh(PointsMesh&& mesh, PagedMemory* memory, MadeMesh& made)
 {
-  const bool isPaged = !arguments.Memory.empty();
-  const std::size_t inTable = isPaged ? std::size_t(mesh.Crossings) : mesh.NewXY.size() / 2;
-  appendPoints(mesh, inTable, made.Points);
-  if (isPaged)
-  {
-    made.NewXY = std::move(mesh.NewXY);
-    made.InTable = inTable;
-  }
+  takeNodes(mesh, memory, made);
   made.Triangles = std::move(mesh.Mesh.Triangles);
-  made.Regions.assign(mesh.Mesh.RegionOf.begin(), mesh.Mesh.RegionOf.end());
+  made.Regions = std::move(mesh.Mesh.RegionOf);
   for (const IdSegment& segment : mesh.Mesh.Segments)
   {
     made.Segments.push_back({ segment.A, segment.B });
@@ -460,10 +481,6 @@ bool makeMesh(const MeshArguments& arguments, PagedMemory* memory, MadeMesh& mad
   SourceConstraints source;
   made.Points = readInput(arguments, source);
   made.GivenPoints = std::int64_t(made.Points.size());
-  if (memory)
-  {
-    requireNoColumns(arguments, made.Points);
-  }
   const auto bar = std::make_unique<ProgressBar>("Meshing");
   MeshRequest request;
   request.Source = &source;
@@ -500,11 +517,31 @@ bool makeMesh(const MeshArguments& arguments, PagedMemory* memory, MadeMesh& mad
       "or move the points of holes off the segments.");
   }
   printWarnings(warnings);
-  takeMesh(arguments, std::move(mesh), made);
+  takeMesh(std::move(mesh), memory, made);
   return true;
 }
 
-void completeMesh(const MeshArguments& arguments, MadeMesh& made)
+NodesView MadeMesh::nodes() const
+{
+  std::vector<NodeColumn> columns;
+  for (std::size_t i = 0; i < this->Points.Columns.size(); ++i)
+  {
+    const PointTable::Column& column = this->Points.Columns[i];
+    if (!this->Depths || column.Name != "depth")
+    {
+      columns.push_back(
+        { column.Name, this->Columns.empty() ? column.Values.data() : this->Columns[i].data() });
+    }
+  }
+  if (this->Depths)
+  {
+    columns.push_back({ "depth", this->Depths->Values.data() });
+  }
+  return { this->Points, this->NewXY.data() + 2 * this->InTable,
+    this->NewXY.size() / 2 - this->InTable, std::move(columns) };
+}
+
+void completeMesh(const MeshArguments& arguments, PagedMemory* memory, MadeMesh& made)
 {
   made.Bandwidth = bandwidthOf(made);
   if (!arguments.KeepOrder)
@@ -513,7 +550,7 @@ void completeMesh(const MeshArguments& arguments, MadeMesh& made)
   }
   if (!arguments.Sizes.Depth.empty())
   {
-    addDepths(arguments, made);
+    addDepths(arguments, memory, made);
   }
   if (arguments.hasBoundaryLists())
   {
@@ -526,7 +563,7 @@ bool writeMade(const MeshArguments& arguments, const MadeMesh& made, const PathS
   MeshOptions options;
   options.Before = before;
   options.Aborted = isInterrupted;
-  options.Regions = made.Regions;
+  options.Regions = { made.Regions.data(), made.Regions.size() };
   options.Boundaries = made.Boundaries.Lists;
   options.Segments = made.Segments;
   options.Crs = arguments.Sizes.Geographic ? "EPSG:4326" : "";

@@ -78,8 +78,10 @@ struct MadeMesh
   PointTable Points;       ///< all nodes, or those before the added ones
   Buffer<double> NewXY;    ///< with --memory: of the crossings and the added points
   std::size_t InTable = 0; ///< the number of crossings, which Points has, too
+  /// With --memory: by column of Points, whose own values are empty then, those of all nodes.
+  std::vector<Buffer<double>> Columns;
   Buffer<std::int32_t> Triangles;
-  std::vector<std::int64_t> Regions;
+  Buffer<std::int32_t> Regions;
   std::vector<std::array<std::int64_t, 2>> Segments;
   RefinedMesh Refined; ///< its triangles and points have been moved from
   std::int64_t GivenPoints = 0;
@@ -88,11 +90,12 @@ struct MadeMesh
   ModelBoundaries Boundaries;
   std::int64_t Bandwidth = 0;
 
-  NodesView nodes() const
+  std::size_t nodeCount() const
   {
-    return { this->Points, this->NewXY.data() + 2 * this->InTable,
-      this->NewXY.size() / 2 - this->InTable };
+    return this->Points.size() + this->NewXY.size() / 2 - this->InTable;
   }
+  /// The nodes with their columns, of which depths are the last one.
+  NodesView nodes() const;
 };
 
 /// Reads the input and makes the mesh, in `memory` unless that is null, without depths and
@@ -100,8 +103,9 @@ struct MadeMesh
 /// std::invalid_argument.
 bool makeMesh(const MeshArguments& arguments, PagedMemory* memory, MadeMesh& made);
 
-/// Orders the nodes, and adds depths and boundaries, as the options say. Throws IOError.
-void completeMesh(const MeshArguments& arguments, MadeMesh& made);
+/// Orders the nodes, and adds depths, in `memory` unless that is null, and boundaries, as the
+/// options say. Throws IOError.
+void completeMesh(const MeshArguments& arguments, PagedMemory* memory, MadeMesh& made);
 
 /// Writes the output. `before`: its path's state before the run. Returns false if the user
 /// interrupted it. Throws IOError.

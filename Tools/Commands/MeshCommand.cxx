@@ -64,7 +64,7 @@ nlohmann::ordered_json listOutside(const RefinedMesh& mesh, double angle, bool i
 void printFigures(const MeshArguments& arguments, const MadeMesh& made,
   const nlohmann::ordered_json& json, double seconds)
 {
-  fmt::print("{} points, {} in {:.3f} s, {:.1f} MB\n", made.nodes().size(),
+  fmt::print("{} points, {} in {:.3f} s, peak memory {:.1f} MB\n", made.nodeCount(),
     counted(std::int64_t(made.Triangles.size() / 3), "triangle", "triangles"), seconds,
     double(peakMemoryBytes()) / 1e6);
   const auto thin = std::int64_t(json["below_bound"].size());
@@ -90,7 +90,7 @@ void report(const MeshArguments& arguments, const MadeMesh& made, double seconds
   const RefinementStatistics& figures = made.Refined.Statistics;
   const auto triangles = std::int64_t(made.Triangles.size() / 3);
   nlohmann::ordered_json json = { { "input", arguments.Constraints.name() },
-    { "output", arguments.Output }, { "points", made.nodes().size() }, { "triangles", triangles },
+    { "output", arguments.Output }, { "points", made.nodeCount() }, { "triangles", triangles },
     { "points_given", made.GivenPoints }, { "points_left_out", made.LeftOut },
     { "points_added", figures.Inserted }, { "segment_splits", figures.Splits },
     { "levels", figures.Levels }, { "rounds", figures.Rounds }, { "blocks", figures.Blocks },
@@ -164,7 +164,8 @@ std::unique_ptr<PagedMemory> memoryOf(const MeshArguments& arguments)
   const std::string folder = arguments.Scratch.empty()
     ? std::filesystem::path(arguments.Output).parent_path().string()
     : arguments.Scratch;
-  return std::make_unique<PagedMemory>(folder, *parseMemorySize(arguments.Memory));
+  return std::make_unique<PagedMemory>(
+    folder, *parseMemorySize(arguments.Memory), "name another folder by --scratch");
 }
 
 int runMesh(const MeshArguments& arguments)
@@ -177,7 +178,7 @@ int runMesh(const MeshArguments& arguments)
   {
     return reportInterrupt();
   }
-  completeMesh(arguments, made);
+  completeMesh(arguments, memory.get(), made);
   const double seconds = watch.restart();
   if (isInterrupted() || !writeMade(arguments, made, before))
   {
@@ -211,25 +212,12 @@ void requireFittingSizes(const MeshArguments& arguments)
     "must not be above --max-size");
 }
 
-/// Throws CLI::ValidationError for options that need the whole mesh in memory beside --memory.
+/// Throws CLI::ValidationError for --memory without --keep-order, and --scratch without --memory.
 void requireFittingMemory(const MeshArguments& arguments)
 {
   refuseIf(!arguments.Scratch.empty() && arguments.Memory.empty(), "--scratch", "needs --memory");
-  if (arguments.Memory.empty())
-  {
-    return;
-  }
-  const auto refuse = [](bool isGiven, const char* option)
-  { refuseIf(isGiven, "--memory", std::string("cannot be combined with ") + option); };
-  refuseIf(!arguments.KeepOrder, "--memory",
+  refuseIf(!arguments.Memory.empty() && !arguments.KeepOrder, "--memory",
     "needs --keep-order, because to renumber the nodes the whole mesh must be in memory");
-  refuse(arguments.SmoothingRounds > 0, "--smooth");
-  refuse(!arguments.Sizes.Depth.empty(), "--depth");
-  refuse(!arguments.Regions.empty(), "--region");
-  refuse(!arguments.RegionFile.empty(), "--regions");
-  refuseIf(arguments.OutputIs == Opener::Adcirc || arguments.OutputIs == Opener::Netcdf, "--memory",
-    "cannot write " + extensionOf(arguments.Output) +
-      ", which needs the whole mesh in memory; name a .vtu, .vtp, .2dm, .msh or .node file");
 }
 
 /// Throws CLI::ValidationError for options that would have no effect or contradict each other.

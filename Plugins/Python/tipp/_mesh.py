@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 import sys
 from typing import Any, Callable, Iterable, Mapping, NamedTuple, Sequence, TYPE_CHECKING, Union
 
@@ -58,6 +59,8 @@ def mesh(
     crossings: str = "split",
     marks: str = "none",
     point_data: Mapping[str, ArrayLike] | None = None,
+    memory: int | str | None = None,
+    scratch: str | os.PathLike[str] | None = None,
     return_type: str | None = None,
     threads: int = 0,
     progress_bar: ProgressBar = False,
@@ -117,6 +120,12 @@ def mesh(
         first, or -1 on the border of none. "none": it has no lines.
     point_data
         For an array of points: a dictionary of arrays with values at the points.
+    memory
+        A memory limit for the process while it makes the mesh, in bytes or as a text such as "512M": the mesh is in
+        temporary files then, and the result is the same. The result itself is in memory. None: no limit.
+    scratch
+        With memory: the folder of these files, on a disk. None: the system's folder for temporary files, which may be in
+        memory.
     return_type
         "tipp", "vtk" or "pyvista": what the result is. None: tipp's for arrays, VTK's for a data set of VTK, and PyVista's
         for one of PyVista.
@@ -166,8 +175,12 @@ def mesh(
         "smooth": check.whole(smooth, "smooth", at_least=0),
         "crossings": check.choice(crossings, "crossings", _CROSSINGS),
         "marks": check.choice(marks, "marks", _MARKS),
+        "memory": 0 if memory is None else check.memory(memory, "memory"),
+        "scratch": "" if scratch is None else check.path(scratch, "scratch"),
         "threads": check.threads(threads),
     }
+    if scratch is not None and memory is None:
+        raise ValueError("scratch has no effect without memory; give a memory limit.")
     progress = progress_of(progress_bar)
     check.require_point_set(points, point_data)
     kind = kind_of(return_type, points)

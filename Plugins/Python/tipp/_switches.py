@@ -224,7 +224,7 @@ def _options(switches: _Switches, regions: np.ndarray) -> dict[str, Any]:
         "regions": [(x, y, area if switches.uses_areas and refines and area > 0 else math.inf)
                     for x, y, _, area in regions.tolist()],
         "keep_border": "Y" in switches.letters, "keep_segments": switches.keeps_segments, "shortest_edge": 0.0,
-        "most_points": switches.most_points or 0, "smooth": 0, "crossings": 1, "marks": 1, "lengths": None,
+        "most_points": switches.most_points or 0, "smooth": 0, "memory": 0, "scratch": "", "crossings": 1, "marks": 1, "lengths": None,
     }
 
 

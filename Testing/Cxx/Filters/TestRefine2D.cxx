@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Delaunay2DTesting.h"
+#include "TemporaryFolder.h"
 #include "vtkTIPPRefine2D.h"
 
 #include "vtkCallbackCommand.h"
@@ -361,6 +362,52 @@ TEST_F(Refine2D, MostPointsLimitsTheMesh)
   EXPECT_EQ(this->run(input)->GetNumberOfPoints(), input->GetNumberOfPoints() + 10);
 }
 
+/// Expects the same points, with values, and the same triangles.
+void expectSameMesh(vtkPolyData* expected, vtkPolyData* found)
+{
+  ASSERT_EQ(found->GetNumberOfPoints(), expected->GetNumberOfPoints());
+  EXPECT_EQ(cellsOf(found->GetPolys()), cellsOf(expected->GetPolys()));
+  for (vtkIdType i = 0; i < expected->GetNumberOfPoints(); ++i)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      ASSERT_EQ(found->GetPoint(i)[axis], expected->GetPoint(i)[axis]);
+    }
+  }
+}
+
+TEST_F(Refine2D, MemoryLimitDoesNotMatter)
+{
+  const tipp::test::TemporaryFolder folder;
+  const auto input = refinedSquares();
+  input->SetPolys(cellArray({ Outer }));
+  this->Filter->SetMaximumArea(0.001);
+  this->Filter->AddRegion(1, 1, 0.01);
+  this->Filter->SetSmoothingRounds(2);
+  vtkNew<vtkPolyData> expected;
+  expected->DeepCopy(this->run(input));
+  this->Filter->SetMemoryLimit(1 << 20);
+  this->Filter->SetScratchFolder(folder.path(".").c_str());
+  vtkPolyData* const found = this->run(input);
+  expectSameMesh(expected, found);
+  const auto regionsOf = [](vtkPolyData* mesh)
+  { return vtkIntArray::SafeDownCast(mesh->GetCellData()->GetArray("Region")); };
+  for (vtkIdType t = 0; t < expected->GetNumberOfCells(); ++t)
+  {
+    ASSERT_EQ(regionsOf(found)->GetValue(t), regionsOf(expected)->GetValue(t));
+  }
+}
+
+TEST_F(Refine2D, AScratchFolderThatIsMissingIsAnError)
+{
+  this->Filter->SetMemoryLimit(1 << 20);
+  this->Filter->SetScratchFolder("missing");
+  EXPECT_EQ(this->run(refinedSquares())->GetNumberOfCells(), 0);
+  ASSERT_EQ(this->Heard.Errors.size(), 1U);
+  EXPECT_NE(this->Heard.Errors[0].find("missing: cannot be written"), std::string::npos)
+    << this->Heard.Errors[0];
+}
+
 TEST_F(Refine2D, ThreadsDoNotMatter)
 {
   const auto input = dataset(randomPoints(500));
@@ -371,16 +418,7 @@ TEST_F(Refine2D, ThreadsDoNotMatter)
   vtkNew<vtkPolyData> one;
   one->DeepCopy(this->run(input));
   this->Filter->SetNumberOfThreads(4);
-  vtkPolyData* const four = this->run(input);
-  ASSERT_EQ(four->GetNumberOfPoints(), one->GetNumberOfPoints());
-  EXPECT_EQ(cellsOf(four->GetPolys()), cellsOf(one->GetPolys()));
-  for (vtkIdType i = 0; i < one->GetNumberOfPoints(); ++i)
-  {
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      ASSERT_EQ(four->GetPoint(i)[axis], one->GetPoint(i)[axis]);
-    }
-  }
+  expectSameMesh(one, this->run(input));
 }
 
 TEST_F(Refine2D, ValuesOutOfRangeAreErrors)

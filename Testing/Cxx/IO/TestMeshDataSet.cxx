@@ -69,7 +69,8 @@ TEST(MeshDataSet, RegionsAreCellDataOfFiles)
 {
   const tipp::test::TemporaryFolder folder;
   MeshOptions options;
-  options.Regions = { 4, -1 };
+  const std::vector<std::int32_t> given{ 4, -1 };
+  options.Regions = given;
   options.Neighbors = true;
   for (const char* const name : { "mesh.vtp", "mesh.vtu" })
   {

@@ -35,7 +35,7 @@ protected:
   {
     this->Points.XY = { 0, 0, 1, 0, 1, 1, 0, 1.1 };
     this->Points.Columns = { { "heat", { 0.1, 0.2, 0.3, 0.4 } }, { "z", { -5, 6.25, 1e-9, 8 } } };
-    this->Options.Regions = { 7, 3 };
+    this->Options.Regions = this->Regions;
   }
 
   tipp::TrianglesView view() const { return { this->Triangles.data(), 2 }; }
@@ -68,6 +68,7 @@ protected:
 
   const tipp::test::TemporaryFolder Folder;
   const Ids Triangles{ 0, 1, 3, 1, 2, 3 };
+  const std::vector<std::int32_t> Regions{ 7, 3 };
   tipp::PointTable Points;
   tipp::MeshOptions Options;
   const std::string Sms = "MESH2D\nMESHNAME \"a b\"\nE3T 1 30 7 9 2\n"
@@ -296,7 +297,8 @@ TEST_F(ModelMeshes, RegionsOfGmshAreNamedPhysicalGroups)
 
 TEST_F(ModelMeshes, GmshCannotHoldNegativeRegions)
 {
-  this->Options.Regions = { 0, -2 };
+  const std::vector<std::int32_t> regions{ 0, -2 };
+  this->Options.Regions = regions;
   const std::string path = this->Folder.path("a.msh");
   expectIOError(path, "cannot hold the region -2",
     [&] { tipp::writeMesh(path, this->Points, this->view(), this->Options); });

@@ -148,7 +148,7 @@ TEST(PagedMemory, FullDiskIsAnError)
   const auto handler = std::signal(SIGXFSZ, SIG_IGN);
   array.grow(MiB);
   array[MiB - 1] = 1;
-  expectIOError(folder.path("."), "cannot be written", [&] { array.grow(3 * MiB); });
+  expectIOError(folder.path("."), "cannot hold the temporary files", [&] { array.grow(3 * MiB); });
   EXPECT_EQ(1, array[MiB - 1]);
   std::signal(SIGXFSZ, handler);
   setrlimit(RLIMIT_FSIZE, &before);

@@ -98,7 +98,7 @@ TEST_F(SquareWithTwoIslands, IsOpenWhereItIsDeep)
   }
   depths[std::size_t(at(5, 0))] = std::nan("");
   const ModelBoundaries found =
-    findModelBoundaries(this->Mesh.XY, this->Mesh.view(), nodesDeeperThan(depths, 10));
+    findModelBoundaries(this->Mesh.XY, this->Mesh.view(), nodesDeeperThan(depths.data(), 10));
   EXPECT_EQ((std::vector<Ids>{ { at(1, 0), at(2, 0), at(3, 0) }, { at(0, 3), at(0, 2) } }),
     found.Lists.Open);
   ASSERT_EQ(4U, found.Lists.Land.size());

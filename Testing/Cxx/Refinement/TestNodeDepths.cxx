@@ -67,6 +67,11 @@ std::vector<double> bruteMeans(
   return sums;
 }
 
+std::vector<double> valuesOf(const NodeDepths& depths)
+{
+  return { depths.Values.begin(), depths.Values.end() };
+}
+
 class NodeDepthsTest : public testing::Test
 {
 protected:
@@ -148,7 +153,7 @@ TEST_F(NodeDepthsTest, ElevationsBecomeDepths)
   const auto raster = this->raster(2, 2, { { -1, -1 }, { 2, 2 } }, { 5, 5, 5, 5 });
   const NodeDepths found = depthsFromRaster(
     mesh.XY, mesh.view(), *raster, NodeRule::AtNode, { VerticalAxis::Elevations, 1 });
-  EXPECT_EQ((std::vector<double>{ -5, -5, -5, -5 }), found.Values);
+  EXPECT_EQ((std::vector<double>{ -5, -5, -5, -5 }), valuesOf(found));
 }
 
 TEST_F(NodeDepthsTest, CellsWithoutAPixelAreInterpolatedAndCounted)
@@ -173,7 +178,7 @@ TEST_F(NodeDepthsTest, NodesOffTheRasterGetTheMeanOfTheirNeighbours)
   EXPECT_EQ(4, found.AtNodes);
   EXPECT_EQ(4, found.FromOthers);
   EXPECT_EQ(0, found.Missing);
-  EXPECT_EQ(std::vector<double>(8, 4), found.Values);
+  EXPECT_EQ(std::vector<double>(8, 4), valuesOf(found));
 }
 
 TEST_F(NodeDepthsTest, NodesThatNoDataReachAreMissing)
@@ -212,7 +217,7 @@ TEST_F(NodeDepthsTest, ARasterOfManyStripsGivesTheSameAsBruteForce)
     depthsFromRaster(mesh.XY, mesh.view(), *raster, NodeRule::CellMean, depths(1));
   const NodeDepths several =
     depthsFromRaster(mesh.XY, mesh.view(), *raster, NodeRule::CellMean, depths(3));
-  EXPECT_EQ(one.Values, several.Values);
+  EXPECT_EQ(valuesOf(one), valuesOf(several));
   // The middle node's cell is symmetric about it.
   EXPECT_NEAR(3 + 2 * 1 - 1, one.Values[4], 1e-3);
 }
@@ -239,8 +244,48 @@ TEST_F(NodeDepthsTest, MeansOfPointsAreThoseOfBruteForceForAnyThreads)
   {
     EXPECT_NEAR(expected[node], one.Values[node], 1e-12) << node;
   }
-  EXPECT_EQ(one.Values, found(2).Values);
-  EXPECT_EQ(one.Values, found(5).Values);
+  EXPECT_EQ(valuesOf(one), valuesOf(found(2)));
+  EXPECT_EQ(valuesOf(one), valuesOf(found(5)));
+}
+
+TEST_F(NodeDepthsTest, DepthsDoNotDependOnStrips)
+{
+  const GridMesh mesh(9, 7);
+  const Box2 bounds{ { -0.7, -0.5 }, { 9.6, 5.2 } }; // the upper rows have no pixels
+  std::vector<double> values;
+  PointTable points;
+  points.Columns = { { "z", {} } };
+  for (int i = 0; i < 71 * 64; ++i)
+  {
+    values.push_back(std::uniform_real_distribution<>(-9, 9)(this->Random));
+    // Some lie on edges and nodes.
+    const double x = std::uniform_real_distribution<>(-1, 10)(this->Random);
+    points.XY.push_back(i % 3 == 0 ? std::round(x) : x);
+    const double y = std::uniform_real_distribution<>(-1, 6)(this->Random);
+    points.XY.push_back(i % 5 == 0 ? std::round(y) : y);
+    points.Columns[0].Values.push_back(values.back());
+  }
+  const auto raster = this->raster(71, 64, bounds, values);
+  const auto found = [&](int which, std::size_t strips)
+  {
+    NodeDepthOptions options = depths();
+    options.Strips = strips;
+    return which < 2 ? depthsFromRaster(mesh.XY, mesh.view(), *raster, NodeRule(which), options)
+                     : depthsFromPoints(mesh.XY, mesh.view(), *streamTable(points), "z", options);
+  };
+  for (const int which : { 0, 1, 2 })
+  {
+    const NodeDepths whole = found(which, 1);
+    EXPECT_GT(whole.FromOthers, 0);
+    for (const std::size_t strips : { 2, 3, 8, 100 })
+    {
+      const NodeDepths parts = found(which, strips);
+      EXPECT_EQ(valuesOf(whole), valuesOf(parts)) << which << " " << strips;
+      EXPECT_EQ(whole.FromCells, parts.FromCells);
+      EXPECT_EQ(whole.AtNodes, parts.AtNodes);
+      EXPECT_EQ(whole.FromOthers, parts.FromOthers);
+    }
+  }
 }
 
 TEST_F(NodeDepthsTest, NodesWithoutPointsAreFilledAndCounted)
@@ -253,7 +298,7 @@ TEST_F(NodeDepthsTest, NodesWithoutPointsAreFilledAndCounted)
     mesh.XY, mesh.view(), *streamTable(points), "z", { VerticalAxis::Elevations, 1 });
   EXPECT_EQ(1, found.FromCells);
   EXPECT_EQ(9, found.FromOthers);
-  EXPECT_EQ(std::vector<double>(10, 4), found.Values);
+  EXPECT_EQ(std::vector<double>(10, 4), valuesOf(found));
 }
 
 TEST_F(NodeDepthsTest, AMissingColumnIsReported)
