@@ -10,6 +10,7 @@
 #include "Files/TextFile.h"
 #include "Files/VtkXml.h"
 #include "Flat/FlatMesh.h"
+#include "Flat/FlattenImage.h"
 #include "Flat/RawVtkFile.h"
 #include "Partitioning/PartitionMesh.h"
 #include "Points/ReadPoints.h"
@@ -64,27 +65,6 @@ std::optional<RawVtkFile> openRaw(const std::string& path)
   {
     return std::nullopt;
   }
-}
-
-/// The points of an image, x first.
-std::vector<double> imagePoints(const RawVtkFile& file)
-{
-  std::vector<double> points;
-  points.reserve(3 * std::size_t(file.PointCount));
-  const auto at = [&file](int axis, std::int64_t index)
-  { return double(index) * file.Spacing[std::size_t(axis)] + file.Origin[std::size_t(axis)]; };
-  const auto& extent = file.Extent;
-  for (std::int64_t z = extent[4]; z <= extent[5]; ++z)
-  {
-    for (std::int64_t y = extent[2]; y <= extent[3]; ++y)
-    {
-      for (std::int64_t x = extent[0]; x <= extent[1]; ++x)
-      {
-        points.insert(points.end(), { at(0, x), at(1, y), at(2, z) });
-      }
-    }
-  }
-  return points;
 }
 
 std::vector<double> pointsOf(const RawVtkFile& file, const std::string& path)
@@ -156,6 +136,11 @@ void refuseVtkCells(const std::string& path)
 
 void refuseVtkMesh(const std::string& path)
 {
+  if (const std::optional<RawVtkFile> file = openRaw(path); file && file->Kind == "ImageData")
+  {
+    throw IOError(
+      path, "holds a vtkImageData, which stores no points; convert it with 'tipp flatten'.");
+  }
   refuse(path, "PyVista makes a partitioned mesh of it",
     "import pyvista, tipp; tipp.write(" + readingOf(path) + ", 'mesh.tipp')");
 }
@@ -212,13 +197,35 @@ ConstraintTable readVtkConstraints(const std::string& path)
 
 std::string cellTypeName(int type)
 {
-  return "type " + std::to_string(type);
+  return type == 0 ? "vtkEmptyCell"
+    : type == 8    ? "vtkPixel"
+    : type == 11   ? "vtkVoxel"
+                   : "type " + std::to_string(type);
 }
 
-PartitionStatistics partitionVtkFile(
-  const std::string& path, const std::string&, const PartitionOptions&, vtkMultiProcessController*)
+Flattened flattenVtkImage(const std::string& path)
 {
-  refuseVtkMesh(path);
+  const std::optional<RawVtkFile> file = openRaw(path);
+  if (!file || file->Kind != "ImageData")
+  {
+    refuseVtkMesh(path);
+  }
+  return flattenImage(*file, path);
+}
+
+PartitionStatistics partitionVtkFile(const std::string& path, const std::string& output,
+  const PartitionOptions& options, vtkMultiProcessController*)
+{
+  Flattened flattened;
+  const auto make = [&]
+  {
+    flattened = flattenVtkImage(path);
+    return std::move(flattened.Content);
+  };
+  PartitionStatistics statistics = partitionInMemory(make, path, output, options);
+  statistics.LeftOut = std::move(flattened.LeftOut);
+  statistics.GhostCells = flattened.GhostCells;
+  return statistics;
 }
 
 } // namespace tipp

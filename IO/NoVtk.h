@@ -4,6 +4,7 @@
 
 #include "Files/InputFile.h"
 #include "Files/RawArray.h"
+#include "Flat/FlattenDataSet.h"
 #include "vtkTIPPIOModule.h"
 
 #include <cstddef>
@@ -37,6 +38,9 @@ std::vector<T> valuesOf(const RawArray& array)
     });
   return result;
 }
+
+/// Flattens a .vti file that can be read in place. Throws IOError, also for any other file.
+VTKTIPPIO_EXPORT Flattened flattenVtkImage(const std::string& path);
 
 } // namespace tipp
 

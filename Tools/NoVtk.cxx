@@ -3,6 +3,7 @@
 #include "NoVtk.h"
 #include "Commands/VtkFiles.h"
 #include "Console/Process.h"
+#include "Files/InputFile.h"
 #include "Reading/ReadFlatPiece.h"
 #include "Sampling/SampleNames.h"
 #include "Sampling/SurfaceOfPiece.h"
@@ -100,6 +101,11 @@ MeshPart readVtkPart(const std::string& path, int threads)
 void flattenVtkFile(
   const std::string& path, const std::function<void(const Flattened& flattened)>& use)
 {
+  if (extensionOf(path) == ".vti")
+  {
+    use(flattenVtkImage(path));
+    return;
+  }
   Piece piece = readCells(path, 0);
   removeGhostArrays(piece);
   Flattened flattened;

@@ -4,6 +4,7 @@
 #include "Arrays/Scalar.h"
 #include "Files/IOError.h"
 #include "Files/VtkXml.h"
+#include "Flat/ParentCells.h"
 #include "Parallel/Poll.h"
 #include "Predicates/Geometry.h"
 #include "Vtk/CellArrays.h"
@@ -224,8 +225,6 @@ private:
   Ids Parents;
 };
 
-constexpr const char* parentName = "vtkOriginalCellIds";
-
 /// The array itself if its values are contiguous, else a contiguous copy; single bits become bytes.
 vtkSmartPointer<vtkDataArray> plain(vtkDataArray* array)
 {
@@ -252,23 +251,6 @@ FlatArray flatArray(vtkDataArray* from)
   flat.Values = array->GetVoidPointer(0);
   flat.Owner = kept;
   return flat;
-}
-
-/// Copies the tuples of the parent cells, in the order of `parents`.
-FlatArray gathered(const FlatArray& all, const Ids& parents)
-{
-  FlatArray some = all;
-  const std::size_t bytes = std::size_t(all.Components) * scalarSize(all.Type);
-  const auto values = std::make_shared<std::vector<char>>(parents.size() * bytes);
-  const auto* const from = static_cast<const char*>(all.Values);
-  for (std::size_t i = 0; i < parents.size(); ++i)
-  {
-    std::memcpy(values->data() + i * bytes, from + std::size_t(parents[i]) * bytes, bytes);
-  }
-  some.Tuples = std::int64_t(parents.size());
-  some.Values = values->data();
-  some.Owner = values;
-  return some;
 }
 
 FlatArray coordinatesOf(vtkDataSet* data)
@@ -318,13 +300,6 @@ std::vector<FlatArray> arraysOf(vtkDataSetAttributes* attributes, std::vector<st
   return arrays;
 }
 
-FlatArray parentArray(Ids parents)
-{
-  const auto values = std::make_shared<Ids>(std::move(parents));
-  const auto count = std::int64_t(values->size());
-  return { parentName, Scalar::Int64, 1, count, 0, values->data(), values };
-}
-
 } // namespace
 
 Flattened flattenDataSet(vtkDataSet* data, const std::string& path)
@@ -335,19 +310,8 @@ Flattened flattenDataSet(vtkDataSet* data, const std::string& path)
   Ids parents = Cutter(data, path, flattened).cut();
   content.Points = coordinatesOf(data);
   content.PointData = arraysOf(data->GetPointData(), flattened.ArraysLeftOut);
-  content.CellData = arraysOf(data->GetCellData(), flattened.ArraysLeftOut);
-  const bool changed = flattened.areCellsChanged();
-  bool named = false;
-  for (FlatArray& array : content.CellData)
-  {
-    array = changed ? gathered(array, parents) : array;
-    named = named || array.Name == parentName;
-  }
-  // "vtkOriginalCellIds" in the input come from an earlier cut and are kept.
-  if (changed && !named)
-  {
-    content.CellData.push_back(parentArray(std::move(parents)));
-  }
+  setCellData(
+    flattened, arraysOf(data->GetCellData(), flattened.ArraysLeftOut), std::move(parents));
   return flattened;
 }
 

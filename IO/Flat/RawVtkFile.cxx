@@ -256,9 +256,12 @@ private:
       this->refuse("holds a part of an image");
     }
     double points = 1;
+    double cells = 1;
     for (std::size_t i = 0; i < 6; i += 2)
     {
-      points *= double(std::max<std::int64_t>(extent[i + 1] - extent[i] + 1, 0));
+      const std::int64_t size = std::max<std::int64_t>(extent[i + 1] - extent[i] + 1, 0);
+      points *= double(size);
+      cells *= double(std::max<std::int64_t>(size - 1, 1));
     }
     if (points > double(std::int64_t(1) << 40))
     {
@@ -266,6 +269,7 @@ private:
         " points, more than a computer holds; copy or write it again.");
     }
     h.PointCount = std::int64_t(points);
+    h.Cells.Count = points > 0 ? std::int64_t(cells) : 0;
   }
 
   std::optional<Scalar> scalarOf(const Tag& tag) const
@@ -387,10 +391,6 @@ private:
   void keepCellData(const RawArray& array)
   {
     RawVtkFile& h = this->Header;
-    if (h.Kind == "ImageData")
-    {
-      return;
-    }
     const std::int64_t others = h.Vertices.Count + h.Lines.Count;
     this->keepData(array, others + h.Cells.Count, h.CellData);
     RawArray& kept = h.CellData.back();
@@ -417,9 +417,9 @@ private:
   {
     const RawVtkFile& h = this->Header;
     const bool isGrid = h.Kind == "UnstructuredGrid";
-    const bool hasCells = isGrid
-      ? !h.Cells.Ids.Path.empty() && !h.Cells.Offsets.Path.empty() && !h.Types.Path.empty()
-      : areWhole(h.Cells) && areWhole(h.Lines);
+    const bool hasCells = h.Kind == "ImageData" ? true
+      : isGrid ? !h.Cells.Ids.Path.empty() && !h.Cells.Offsets.Path.empty() && !h.Types.Path.empty()
+               : areWhole(h.Cells) && areWhole(h.Lines);
     const bool hasPoints =
       !h.Points.Path.empty() || h.Kind == "ImageData" || (!isGrid && h.PointCount == 0);
     if (!this->HasFile || this->Pieces != 1 || !hasPoints || !hasCells)

@@ -29,7 +29,7 @@ struct RawVtkFile
   std::string Kind; ///< UnstructuredGrid, PolyData or ImageData
   std::int64_t PointCount = 0;
   RawArray Points; ///< without a path for images
-  RawCells Cells;  ///< of a .vtp file the polygons
+  RawCells Cells;  ///< of a .vtp file the polygons; of an image only their number
   RawArray Types;  ///< of the cells of a .vtu file
   RawCells Vertices;
   RawCells Lines;

@@ -357,11 +357,9 @@ void partitionFile(
     [&]
     {
       requireApart({ output }, { input });
-      if (isOpenedBy(input, Opener::Vtk) && !isFlatMesh(input))
-      {
-        readVtkPoints(input); // throws an error that says what to do
-      }
-      partitionMesh(openFlatMesh(input), output, options);
+      isOpenedBy(input, Opener::Vtk) && !isFlatMesh(input)
+        ? partitionVtkFile(input, output, options, nullptr)
+        : partitionMesh(openFlatMesh(input), output, options);
     });
   reporter.raiseIfStopped();
 }

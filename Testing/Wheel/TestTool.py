@@ -6,6 +6,8 @@ Usage: TestTool.py TIPP [unittest arguments]
 import importlib.util
 import os
 import pathlib
+import re
+import shutil
 import signal
 import struct
 import subprocess
@@ -60,6 +62,23 @@ def las_file(points, records):
     body = np.zeros(len(points), [("xyz", "<i4", 3), ("rest", "V8")])
     body["xyz"] = whole
     return head + extra + body.tobytes()
+
+
+def image_file(extent, point_data, cell_data, spacing="0.25 2 0.5"):
+    """A .vti file with appended raw data."""
+    sections, data = "", b""
+    for section, arrays in (("PointData", point_data), ("CellData", cell_data)):
+        elements = ""
+        for name, values in arrays.items():
+            kind = {"f": "Float", "i": "Int", "u": "UInt"}[values.dtype.kind] + str(8 * values.itemsize)
+            columns = values.shape[1] if values.ndim > 1 else 1
+            elements += f'<DataArray type="{kind}" Name="{name}" NumberOfComponents="{columns}" format="appended" offset="{len(data)}"/>'
+            data += struct.pack("<Q", values.nbytes) + values.tobytes()
+        sections += f"<{section}>{elements}</{section}>"
+    head = ('<VTKFile type="ImageData" version="1.0" byte_order="LittleEndian" header_type="UInt64">'
+            f'<ImageData WholeExtent="{extent}" Origin="0.5 -1 3" Spacing="{spacing}"><Piece Extent="{extent}">{sections}</Piece></ImageData>'
+            '<AppendedData encoding="raw">_')
+    return head.encode() + data + b"</AppendedData></VTKFile>"
 
 
 class Tool(unittest.TestCase):
@@ -348,6 +367,56 @@ class Tool(unittest.TestCase):
                         path.rename(self.folder / f"first of {name}")
                 self.assertTrue(contents[0] == contents[1], "the files differ")
 
+    def both(self, words, name):
+        """Runs a command with both tools. Returns of each the exit code, what it said, and the files that it wrote as `name`."""
+        results = []
+        for tool in (TIPP, CXX):
+            run = self.run_words(*words, tool=(tool,))
+            path = self.folder / name
+            files = sorted(path.rglob("*")) if path.is_dir() else [path] if path.exists() else []
+            said = re.sub(r"[0-9.]+ s, peak memory.*", "", run.stdout)
+            results.append((run.returncode, said, run.stderr, [(file.name, file.read_bytes()) for file in files if file.is_file()]))
+            if path.is_dir():
+                shutil.rmtree(path)
+        return results
+
+    @unittest.skipIf(CXX is None, "TIPP_CXX does not name the C++ tool")
+    def test_meshes_of_images_are_those_of_the_cxx_tool(self):
+        def marks(count, *marked):
+            array = np.zeros(count, np.uint8)
+            for index, mark in marked:
+                array[index] = mark
+            return {"vtkGhostType": array}
+
+        values = {"h": np.arange(12.0), "": np.arange(24, dtype=np.float32).reshape(12, 2)}
+        cells = {"c": np.arange(6, dtype=np.int32)}
+        solid = {"h": np.arange(60.0)}
+        images = {
+            "xy": image_file("2 5 0 2 0 0", values, cells), "xz": image_file("2 5 1 1 -1 1", values, cells),
+            "yz": image_file("7 7 0 3 0 2", values, {"vtkOriginalCellIds": np.arange(6)}),
+            "points hidden": image_file("2 5 0 2 0 0", {**values, **marks(12, (0, 2), (5, 1))}, cells),
+            "cells hidden": image_file("2 5 0 2 0 0", values, {**marks(6, (0, 1), (2, 32), (3, 8), (5, 4)), **cells}),
+            "all hidden": image_file("2 5 0 2 0 0", values, marks(6, (slice(None), 32))),
+            "all elsewhere": image_file("2 5 0 2 0 0", values, marks(6, (slice(None), 1))),
+            "solid": image_file("0 4 0 2 -2 1", solid, {"c": np.arange(24.0)}),
+            "backwards": image_file("0 4 0 2 -2 1", {**solid, **marks(60, (33, 2))}, {}, "0.25 -2 0.5"),
+            "row": image_file("0 11 0 0 0 0", values, {}), "empty": image_file("0 -1 0 -1 0 -1", {}, {})}
+        for name, content in images.items():
+            (self.folder / "a.vti").write_bytes(content)
+            for words, output in ((["flatten", "a.vti", "-o", "f"], "f"), (["partition", "a.vti", "-o", "p.tipp", "--tiling", "quadtree:4"], "p.tipp")):
+                with self.subTest(f"{name}: {words[0]}"):
+                    first, second = self.both(words, output)
+                    self.assertEqual(first[:3], second[:3])
+                    self.assertTrue(first[3] == second[3], "the files differ")
+
+    def test_a_damaged_image_is_refused(self):
+        whole = image_file("0 3 0 2 0 0", {"h": np.arange(12.0)}, {"c": np.arange(6.0)})
+        for content in (whole.replace(b"0 3 0 2 0 0", b"0 30000000 0 20000 0 0"), whole.replace(b"0 3 0 2 0 0", b"0 3 0 3 0 0"), whole[:-60],
+                        image_file("0 999999 0 999999 0 0", {}, {}), whole.replace(b"UInt64", b"UInt16")):
+            (self.folder / "a.vti").write_bytes(content)
+            for words in (["flatten", "a.vti", "-o", "f"], ["partition", "a.vti", "-o", "p.tipp"]):
+                self.assertIn("a.vti", self.refused(*words))
+
     @unittest.skipIf(CXX is None, "TIPP_CXX does not name the C++ tool")
     def test_messages_are_those_of_the_cxx_tool(self):
         self.run_tipp("delaunay", "points.npy", "-o", "b.vtu")
@@ -364,7 +433,8 @@ class Tool(unittest.TestCase):
                       ["remap", "--help"], ["remap", "b.vtu", "--to", "c.vtp", "-o", "r.vtu"], ["remap", "b.vtu", "--to", "absent.vtp", "-o", "r.vtp"],
                       ["remap", "b.vtu", "--to", "c.vtp", "-o", "r.vtp", "--arrays", "nothing"], ["remap", "s.vtu", "--to", "c.vtp", "-o", "r.vtp"],
                       ["remap", "b.vtu", "--to", "s.vtu", "-o", "r.vtu"], ["remap", "b.vtu", "--to", "points.npy", "-o", "r.vtu"],
-                      ["info", "c.vtp"], ["info", "b.vti"], ["--help"],
+                      ["info", "c.vtp"], ["info", "b.vti"], ["--help"], ["volume", "b.vtu", "b.vti"],
+                      ["resample", "b.vti", "-o", "r.npy", "--dims", 3, 3],
                       ["info", "points.npy"], ["dem", "--help"], ["delaunay", "--help"], ["query", "--help"], ["--version"],
                       ["resample", "--help"], ["check", "--help"], ["resample", "a.vtu", "-o", "a.npy"],
                       ["resample", "absent.vtu", "-o", "a.npy", "--dims", 2, 2],
