@@ -7,6 +7,8 @@
 #include "Files/IOError.h"
 #ifdef TIPP_HAVE_GDAL
 #include "Crs/ImportCrs.h"
+#else
+#include "Crs/WriteGeoKeys.h"
 #endif
 
 #include <algorithm>
@@ -358,9 +360,17 @@ ReferenceSystem describeCrs(const std::string& text)
   return { text, "", "" };
 }
 
-std::string wkt1Of(const std::string&, bool)
+std::string wkt1Of(const std::string& text, bool isOfUser)
 {
-  return "";
+  const auto& toWkt1 = crsTranslator().ToWkt1;
+  try
+  {
+    return toWkt1 ? toWkt1(text) : std::string();
+  }
+  catch (const IOError&) // nothing that translates is installed
+  {
+    return isOfUser ? throw : std::string();
+  }
 }
 
 bool areSameCrs(const std::string& a, const std::string& b)

@@ -30,7 +30,8 @@ VTKTIPPIO_EXPORT ReferenceSystem understandCrs(const CrsRecords& records);
 VTKTIPPIO_EXPORT ReferenceSystem describeCrs(const std::string& text);
 
 /// Returns the WKT 1 (of 2001, as LAS has it) of a ReferenceSystem's text, or of one that the user
-/// gave; empty if it cannot be expressed so, and without GDAL.
+/// gave; empty if it cannot be expressed so, and without GDAL. In the Python wheel, throws IOError
+/// with what to install if it is the user's and nothing that translates it is there.
 VTKTIPPIO_EXPORT std::string wkt1Of(const std::string& text, bool isOfUser = false);
 
 /// Returns whether the texts of two ReferenceSystems mean the same system, however it is written.

@@ -17,12 +17,6 @@ namespace tipp
 namespace
 {
 
-CrsTranslator& theTranslator()
-{
-  static CrsTranslator translator;
-  return translator;
-}
-
 template <std::size_t Count>
 bool has(const EpsgRange (&ranges)[Count], int code)
 {
@@ -52,7 +46,8 @@ StatedCodes completeCodes(const std::string& crs)
 
 std::vector<TiffField> translated(const std::string& crs)
 {
-  const std::string result = theTranslator() ? theTranslator()(crs) : std::string();
+  const auto& toGeoKeys = crsTranslator().ToGeoKeys;
+  const std::string result = toGeoKeys ? toGeoKeys(crs) : std::string();
   for (const char* const kind : { "projected:", "geographic:" })
   {
     if (startsWith(result, kind))
@@ -104,9 +99,10 @@ std::vector<TiffField> geoKeysWithoutGdal(const std::string& crs)
   return fields;
 }
 
-void setCrsTranslator(CrsTranslator translator)
+CrsTranslator& crsTranslator()
 {
-  theTranslator() = std::move(translator);
+  static CrsTranslator translator;
+  return translator;
 }
 
 } // namespace tipp

@@ -17,19 +17,24 @@ namespace tipp
 VTKTIPPIO_EXPORT TiffField geoKeysOfCodes(bool isProjected, int horizontal, int heights);
 
 /// Returns the TIFF fields that describe a reference system, without GDAL: by EPSG codes that the
-/// text states ("EPSG:code", "EPSG:code+code" or WKT), else by setCrsTranslator(). Throws IOError
+/// text states ("EPSG:code", "EPSG:code+code" or WKT), else by crsTranslator(). Throws IOError
 /// with one sentence if neither describes it.
 VTKTIPPIO_EXPORT std::vector<TiffField> geoKeysWithoutGdal(const std::string& crs);
 
-/// Translates the text of a reference system that states no EPSG code known here. Returns
-/// "projected:CODE" or "geographic:CODE", either with "+CODE" for heights; or the bytes of a
-/// GeoTIFF with the system; or an empty text if it cannot translate any. Throws IOError if it does
-/// not understand the text.
-using CrsTranslator = std::function<std::string(const std::string& crs)>;
+/// Translates the text of a reference system in a build without GDAL.
+struct CrsTranslator
+{
+  /// For a text that states no EPSG code known here. Returns "projected:CODE" or "geographic:CODE",
+  /// either with "+CODE" for heights; or the bytes of a GeoTIFF with the system; or an empty text
+  /// if it cannot translate any. Throws IOError if it does not understand the text.
+  std::function<std::string(const std::string& crs)> ToGeoKeys;
+  /// As wkt1Of(). Throws IOError with what to install if it can translate none.
+  std::function<std::string(const std::string& crs)> ToWkt1;
+};
 
-/// Sets the translator of the process; at the start there is none. Call it before any other thread
-/// uses reference systems.
-VTKTIPPIO_EXPORT void setCrsTranslator(CrsTranslator translator);
+/// The translator of the process; at the start it has no functions. Set them before any other
+/// thread uses reference systems.
+VTKTIPPIO_EXPORT CrsTranslator& crsTranslator();
 
 } // namespace tipp
 

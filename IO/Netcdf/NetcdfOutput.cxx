@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <utility>
 
 namespace tipp
@@ -67,58 +68,78 @@ nc_type netcdfTypeOf(Scalar type)
 
 } // namespace
 
+struct NetcdfOutput::State
+{
+  State(const std::string& path, const std::optional<PathState>& before, std::string advice)
+    : Path(path)
+    , Advice(std::move(advice))
+    , Pending(path, before)
+  {
+  }
+
+  /// Throws if a call has failed. `name`: of the variable or attribute at which it may fail.
+  void check(int status, const std::string& name = "")
+  {
+    if (status != NC_NOERR)
+    {
+      this->HasFailed = true;
+      throw IOError(this->Path,
+        std::string("cannot be written as NetCDF") + (name.empty() ? "" : ", at '" + name + "'") +
+          ": " + nc_strerror(status) +
+          (name.empty() ? "; is the disk full?" : "; " + this->Advice));
+    }
+  }
+
+  const std::string Path;
+  const std::string Advice;
+  PendingFile Pending;
+  int File = 0;
+  bool IsOpen = false;
+  bool HasFailed = false;
+};
+
 const int NetcdfOutput::global = NC_GLOBAL;
 
 NetcdfOutput::NetcdfOutput(const std::string& path, const std::optional<PathState>& before,
   bool isClassic, std::string advice)
-  : Path(path)
-  , Advice(std::move(advice))
-  , Pending(path, before)
+  : Own(std::make_unique<State>(path, before, std::move(advice)))
 {
-  this->Pending.unlock();
+  this->Own->Pending.unlock();
   keepHdf5FromExit();
   const int kind = NC_NETCDF4 | (isClassic ? NC_CLASSIC_MODEL : 0);
-  this->check(nc_create(this->Pending.temporaryPath().c_str(), NC_CLOBBER | kind, &this->File));
-  this->IsOpen = true;
+  this->Own->check(
+    nc_create(this->Own->Pending.temporaryPath().c_str(), NC_CLOBBER | kind, &this->Own->File));
+  this->Own->IsOpen = true;
 }
 
 NetcdfOutput::~NetcdfOutput()
 {
   // After a failed write, as on a full disk, HDF5 crashes when it is told to give up the file.
-  if (this->IsOpen && !this->HasFailed)
+  if (this->Own->IsOpen && !this->Own->HasFailed)
   {
-    nc_abort(this->File);
+    nc_abort(this->Own->File);
   }
 }
 
-void NetcdfOutput::check(int status, const std::string& name) const
-{
-  if (status != NC_NOERR)
-  {
-    this->HasFailed = true;
-    throw IOError(this->Path,
-      std::string("cannot be written as NetCDF") + (name.empty() ? "" : ", at '" + name + "'") +
-        ": " + nc_strerror(status) + (name.empty() ? "; is the disk full?" : "; " + this->Advice));
-  }
-}
+void NetcdfOutput::requireWriter(const std::string&) {}
 
 void NetcdfOutput::setText(int variable, const char* name, const std::string& text) const
 {
   if (!text.empty())
   {
-    this->check(nc_put_att_text(this->File, variable, name, text.size(), text.c_str()));
+    this->Own->check(nc_put_att_text(this->Own->File, variable, name, text.size(), text.c_str()));
   }
 }
 
 void NetcdfOutput::setInteger(int variable, const char* name, int value) const
 {
-  this->check(nc_put_att_int(this->File, variable, name, NC_INT, 1, &value));
+  this->Own->check(nc_put_att_int(this->Own->File, variable, name, NC_INT, 1, &value));
 }
 
 int NetcdfOutput::addDimension(const std::string& name, std::size_t size) const
 {
   int dimension = 0;
-  this->check(nc_def_dim(this->File, name.c_str(), size, &dimension));
+  this->Own->check(nc_def_dim(this->Own->File, name.c_str(), size, &dimension));
   return dimension;
 }
 
@@ -131,49 +152,49 @@ int NetcdfOutput::addVariable(
   const std::string& name, Scalar type, const std::vector<int>& dimensions) const
 {
   int variable = 0;
-  this->check(nc_def_var(this->File, name.c_str(), netcdfTypeOf(type), int(dimensions.size()),
-                dimensions.data(), &variable),
+  this->Own->check(nc_def_var(this->Own->File, name.c_str(), netcdfTypeOf(type),
+                     int(dimensions.size()), dimensions.data(), &variable),
     name);
   return variable;
 }
 
 void NetcdfOutput::compress(int variable, const std::vector<std::size_t>& chunk) const
 {
-  this->check(nc_def_var_chunking(this->File, variable, NC_CHUNKED, chunk.data()));
+  this->Own->check(nc_def_var_chunking(this->Own->File, variable, NC_CHUNKED, chunk.data()));
   constexpr int fast = 1; // of 9: larger ones take twice the time for a few per cent
-  this->check(nc_def_var_deflate(this->File, variable, 1, 1, fast));
+  this->Own->check(nc_def_var_deflate(this->Own->File, variable, 1, 1, fast));
 }
 
 void NetcdfOutput::fillWithNaN(int variable, Scalar type) const
 {
   const double missing = std::numeric_limits<double>::quiet_NaN();
-  this->check(
-    nc_put_att_double(this->File, variable, "_FillValue", netcdfTypeOf(type), 1, &missing));
+  this->Own->check(
+    nc_put_att_double(this->Own->File, variable, "_FillValue", netcdfTypeOf(type), 1, &missing));
 }
 
 void NetcdfOutput::withoutFill(int variable) const
 {
-  this->check(nc_def_var_fill(this->File, variable, NC_NOFILL, nullptr));
+  this->Own->check(nc_def_var_fill(this->Own->File, variable, NC_NOFILL, nullptr));
 }
 
 void NetcdfOutput::endDefinitions() const
 {
-  this->check(nc_enddef(this->File));
+  this->Own->check(nc_enddef(this->Own->File));
 }
 
 void NetcdfOutput::write(int variable, const std::vector<std::size_t>& start,
   const std::vector<std::size_t>& count, const void* values) const
 {
   silenceHdf5();
-  this->check(nc_put_vara(this->File, variable, start.data(), count.data(), values));
+  this->Own->check(nc_put_vara(this->Own->File, variable, start.data(), count.data(), values));
 }
 
 void NetcdfOutput::close()
 {
   silenceHdf5();
-  this->IsOpen = false;
-  this->check(nc_close(this->File));
-  this->Pending.commit();
+  this->Own->IsOpen = false;
+  this->Own->check(nc_close(this->Own->File));
+  this->Own->Pending.commit();
 }
 
 } // namespace tipp

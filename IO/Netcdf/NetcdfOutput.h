@@ -6,6 +6,7 @@
 #include "Files/PendingOutput.h"
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,8 +14,9 @@
 namespace tipp
 {
 
-/// A NetCDF-4 file that is written with the NetCDF library. It appears when it is complete; without
-/// close() it is removed. All functions throw IOError.
+/// A NetCDF-4 file that is written with the NetCDF library or, in a build without it, by
+/// NetcdfHook. It appears when it is complete; without close() it is removed. All functions throw
+/// IOError.
 class NetcdfOutput
 {
 public:
@@ -26,10 +28,9 @@ public:
   NetcdfOutput(const NetcdfOutput&) = delete;
   NetcdfOutput& operator=(const NetcdfOutput&) = delete;
 
-  /// For calls of the library.
-  int file() const { return this->File; }
-  /// Throws if a call has failed. `name`: of the variable or attribute at which it may fail.
-  void check(int status, const std::string& name = "") const;
+  /// Throws if no file can be written, because a package is not installed. `path`: of a file to be
+  /// written later.
+  static void requireWriter(const std::string& path);
 
   /// The number of a variable that stands for the whole file.
   static const int global;
@@ -55,12 +56,8 @@ public:
   void close();
 
 private:
-  std::string Path;
-  std::string Advice;
-  PendingFile Pending;
-  int File = 0;
-  bool IsOpen = false;
-  mutable bool HasFailed = false;
+  struct State;
+  std::unique_ptr<State> Own;
 };
 
 } // namespace tipp

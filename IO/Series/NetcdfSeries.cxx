@@ -290,7 +290,7 @@ std::unique_ptr<MeshSeries> openNetcdfSeries(const std::string& path, const Seri
 #ifdef TIPP_WITHOUT_VTK
   const NetcdfHook& hook = netcdfHook();
   const std::string missing =
-    hook.missing ? hook.missing() : "is a NetCDF file, which this build does not read.";
+    hook.missing ? hook.missing(false) : "is a NetCDF file, which this build does not read.";
   if (!missing.empty())
   {
     throw IOError(path, missing);

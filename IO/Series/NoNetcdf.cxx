@@ -3,7 +3,6 @@
 #include "Files/IOError.h"
 #include "Series/NetcdfSeries.h"
 #include "Series/SeriesOutput.h"
-#include "Series/VtkHdfSeries.h"
 #include "Series/WriteUgrid.h"
 
 #include <string>
@@ -13,36 +12,16 @@ namespace tipp
 namespace
 {
 
-#ifdef TIPP_WITHOUT_VTK
-constexpr const char* advice = "; write ";
-constexpr const char* vtkHdfAdvice = "which the Python wheel does not read; convert it.";
-#else
 constexpr const char* advice =
   "; install the NetCDF library (Debian's libnetcdf-dev) and build again, or write ";
-constexpr const char* vtkHdfAdvice =
-  "which this build of TIPP does not read; install the NetCDF library (Debian's libnetcdf-dev) and "
-  "build TIPP again.";
-#endif
 
 } // namespace
 
-#ifndef TIPP_WITHOUT_VTK
 std::unique_ptr<MeshSeries> openNetcdfSeries(const std::string& path, const SeriesOptions&)
 {
   throw IOError(path,
     "is a NetCDF file, which this build of TIPP does not read; install the NetCDF library "
     "(Debian's libnetcdf-dev) and build TIPP again.");
-}
-#endif
-
-std::unique_ptr<MeshSeries> openVtkHdfSeries(const std::string& path, const SeriesOptions&)
-{
-  throw IOError(path, std::string("is a VTKHDF file, ") + vtkHdfAdvice);
-}
-
-bool isVtkHdfSeries(const std::string&)
-{
-  return false;
 }
 
 std::unique_ptr<SeriesOutput> createNetcdfSeries(

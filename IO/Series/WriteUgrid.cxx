@@ -2,6 +2,7 @@
 #include "Series/WriteUgrid.h"
 
 #include "Crs/ReferenceSystem.h"
+#include "Files/Formats.h"
 #include "Files/IOError.h"
 #include "Netcdf/NetcdfOutput.h"
 #include "Predicates/Vectors.h"
@@ -268,7 +269,13 @@ private:
 
 } // namespace
 
-void requireNetcdfFor(const std::string&) {}
+void requireNetcdfFor(const std::string& output)
+{
+  if (isOpenedBy(output, Opener::Netcdf))
+  {
+    NetcdfOutput::requireWriter(output);
+  }
+}
 
 bool writeUgrid(const std::string& path, const UgridContent& content,
   const std::optional<PathState>& before, const std::function<bool()>& aborted)

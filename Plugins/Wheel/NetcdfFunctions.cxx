@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// NetCDF files, read by Python's packages for them.
+// NetCDF files, read and written by Python's packages for them.
 #include "Binding.h"
 
+#include "Files/RawArray.h"
 #include "Netcdf/NetcdfHook.h"
 
 #include <nanobind/stl/string.h>
@@ -9,9 +10,11 @@
 #include <nanobind/stl/vector.h>
 
 #include <cstring>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 namespace tipp::python
@@ -24,20 +27,26 @@ using Attributes = std::vector<std::tuple<std::string, std::string, std::vector<
 using Variable = std::tuple<std::string, std::string, std::vector<int>, Attributes>;
 using Dimensions = std::vector<std::tuple<std::string, std::int64_t>>;
 
-/// Calls work(module) with the Python module that reads the files, and throws its errors as
-/// std::runtime_error.
+/// Calls work(), which uses Python, and throws its errors as std::runtime_error.
 template <typename Work>
-auto withModule(const Work& work)
+auto withPython(const Work& work)
 {
   const nb::gil_scoped_acquire lock;
   try
   {
-    return work(nb::module_::import_("tipp._netcdf"));
+    return work();
   }
   catch (const nb::python_error& error)
   {
     throw std::runtime_error(nb::cast<std::string>(nb::str(error.value())));
   }
+}
+
+/// The same with the Python module that reads the files.
+template <typename Work>
+auto withModule(const Work& work)
+{
+  return withPython([&work] { return work(nb::module_::import_("tipp._netcdf")); });
 }
 
 std::vector<NetcdfAttribute> attributesOf(const Attributes& given)
@@ -90,17 +99,102 @@ void readPart(const NetcdfPart& part, void* to)
     });
 }
 
-std::string missingPackage()
+std::string missingPackage(bool isToWrite)
 {
-  return withModule([](const nb::module_& module)
-    { return nb::cast<std::string>(module.attr("missing_package")()); });
+  return withModule([isToWrite](const nb::module_& module)
+    { return nb::cast<std::string>(module.attr("missing_package")(isToWrite)); });
+}
+
+nb::bytes bytesOf(const std::string& text)
+{
+  return nb::bytes(text.data(), text.size());
+}
+
+nb::list listOf(const std::vector<NetcdfAttribute>& attributes)
+{
+  nb::list list;
+  for (const NetcdfAttribute& attribute : attributes)
+  {
+    list.append(nb::make_tuple(attribute.Name, bytesOf(attribute.Text), attribute.Numbers));
+  }
+  return list;
+}
+
+/// A variable for tipp._netcdf_output: name, type, numbers of its dimensions, attributes, chunk,
+/// and whether missing values have the usual fill value, NaN or none.
+nb::tuple definitionOf(const NetcdfVariable& variable, const NetcdfStorage& storage)
+{
+  using Fill = NetcdfStorage::Fill;
+  const char* const missing = storage.Missing == Fill::NaN ? "nan"
+    : storage.Missing == Fill::None                        ? "none"
+                                                           : "usual";
+  return nb::make_tuple(bytesOf(variable.Name), scalarName(*variable.Type), variable.Dimensions,
+    listOf(variable.Attributes), storage.Chunk, missing);
+}
+
+/// A file that tipp._netcdf_output writes.
+class PythonSink : public NetcdfSink
+{
+public:
+  explicit PythonSink(nb::object file)
+    : File(std::move(file))
+  {
+  }
+  ~PythonSink() override
+  {
+    const nb::gil_scoped_acquire lock;
+    this->File.reset();
+  }
+
+  void write(const NetcdfPart& part, const void* values, std::size_t bytes) override
+  {
+    withPython(
+      [&]
+      {
+        // The memory is only read, and only during the call.
+        auto* const memory = static_cast<char*>(const_cast<void*>(values));
+        const auto view = nb::steal(PyMemoryView_FromMemory(memory, Py_ssize_t(bytes), PyBUF_READ));
+        this->File.attr("write")(part.Variable, part.Start, part.Count, view);
+      });
+  }
+
+  void close() override
+  {
+    withPython([this] { this->File.attr("close")(); });
+  }
+
+private:
+  nb::object File;
+};
+
+std::unique_ptr<NetcdfSink> createFile(
+  const std::string& path, const NetcdfDefinitions& definitions)
+{
+  return withPython(
+    [&]() -> std::unique_ptr<NetcdfSink>
+    {
+      nb::list dimensions;
+      for (const NetcdfDimension& dimension : definitions.Content.Dimensions)
+      {
+        dimensions.append(nb::make_tuple(dimension.Name, dimension.Size));
+      }
+      nb::list variables;
+      for (const NetcdfVariable& variable : definitions.Content.Variables)
+      {
+        variables.append(definitionOf(variable, definitions.Storage[std::size_t(variable.Id)]));
+      }
+      return std::make_unique<PythonSink>(
+        nb::module_::import_("tipp._netcdf_output")
+          .attr("create_file")(bytesOf(path), definitions.IsClassic, dimensions, variables,
+            listOf(definitions.Content.Attributes)));
+    });
 }
 
 } // namespace
 
 void addNetcdfFunctions()
 {
-  netcdfHook() = { missingPackage, openFile, readPart };
+  netcdfHook() = { missingPackage, openFile, readPart, createFile };
 }
 
 } // namespace tipp::python

@@ -35,15 +35,14 @@ int runWords(const nb::list& words)
   return withoutLock([&] { return runTool(int(texts.size()), pointers.data()); });
 }
 
-/// Translates a reference system with Python's packages, as CrsTranslator.
-std::string translateCrs(const std::string& crs)
+/// Translates a reference system by a function of tipp._crs, as CrsTranslator.
+std::string translateCrs(const char* function, const std::string& crs)
 {
   const nb::gil_scoped_acquire lock;
   try
   {
     const nb::bytes text(crs.data(), crs.size());
-    const auto result =
-      nb::cast<nb::bytes>(nb::module_::import_("tipp._crs").attr("translate")(text));
+    const auto result = nb::cast<nb::bytes>(nb::module_::import_("tipp._crs").attr(function)(text));
     return { result.c_str(), result.size() };
   }
   catch (const nb::python_error& error)
@@ -56,7 +55,8 @@ std::string translateCrs(const std::string& crs)
 
 void addToolFunctions(nb::module_& module)
 {
-  setCrsTranslator(translateCrs);
+  crsTranslator() = { [](const std::string& crs) { return translateCrs("translate", crs); },
+    [](const std::string& crs) { return translateCrs("to_wkt1", crs); } };
   module.def("run_tool", &runWords);
 }
 

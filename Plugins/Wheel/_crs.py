@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Coordinate reference systems that state no EPSG code known to the wheel, for GeoTIFF files."""
+"""Coordinate reference systems: those without an EPSG code known to the wheel, for GeoTIFF files; WKT for others."""
 from __future__ import annotations
 
 
@@ -23,6 +23,45 @@ def translate(crs: bytes) -> bytes:
     """
     text = crs.decode(errors="replace")
     return _by_code(text) or _by_file(text)
+
+
+def to_wkt1(crs: bytes) -> bytes:
+    """Translates the text of a system to WKT 1 with pyproj or rasterio; returns nothing if they do not understand it.
+
+    Raises
+    ------
+    ValueError
+        If neither package is installed, and the text is not WKT 1 already.
+    """
+    text = crs.decode(errors="replace")
+    for wkt1_of in (_wkt1_by_pyproj, _wkt1_by_rasterio):
+        try:
+            return wkt1_of(text).encode()
+        except ImportError:
+            pass
+    if text.lstrip().startswith(("GEOGCS[", "PROJCS[", "COMPD_CS[")):
+        return crs
+    raise ValueError(f"The coordinate reference system {text[:60]!r} is written as WKT, which needs a package of Python "
+                     "that translates it: pip install pyproj.")
+
+
+def _wkt1_by_pyproj(text: str) -> str:
+    import pyproj
+
+    try:
+        return pyproj.CRS.from_user_input(text).to_wkt("WKT1_GDAL", output_axis_rule=True) or ""
+    except pyproj.exceptions.CRSError:
+        return ""
+
+
+def _wkt1_by_rasterio(text: str) -> str:
+    import rasterio.crs
+    import rasterio.errors
+
+    try:
+        return str(rasterio.crs.CRS.from_user_input(text).to_wkt(version="WKT1_GDAL"))
+    except rasterio.errors.CRSError:
+        return ""
 
 
 def _by_code(text: str) -> bytes:

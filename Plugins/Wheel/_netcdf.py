@@ -16,12 +16,13 @@ _kept: list[Any] = []  # the open file, which h5netcdf closes if nothing refers 
 Attributes = list[tuple[str, str, list[float], bool]]
 
 
-def missing_package() -> str:
-    """Returns what to install; "" if files can be read."""
+def missing_package(is_to_write: bool) -> str:
+    """Returns what to install; "" if files can be read or written."""
     for packages in (("netCDF4",), ("h5netcdf", "h5py")):
         if all(importlib.util.find_spec(name) for name in packages):
             return ""
-    return "is a NetCDF file, which needs a package of Python that reads it: pip install netCDF4."
+    return (f"is a NetCDF file, which needs a package of Python that {'writes' if is_to_write else 'reads'} it: "
+            "pip install netCDF4.")
 
 
 def open_file(path: bytes) -> tuple[list[tuple[str, int]], list[tuple[str, str, list[int], Attributes]], Attributes]:

@@ -7,7 +7,6 @@ import contextlib
 import math
 import os
 from typing import Any, BinaryIO, Callable, Iterator, NoReturn
-from xml.parsers import expat
 
 import numpy as np
 
@@ -106,6 +105,8 @@ class _File:
 
     def _parse(self, text: bytes, is_whole: bool) -> list[tuple[tuple[str, ...], dict[str, str]]]:
         """Returns the path of names and the attributes of each element."""
+        from xml.parsers import expat  # slow to load
+
         elements: list[tuple[tuple[str, ...], dict[str, str]]] = []
         names: list[str] = []
 

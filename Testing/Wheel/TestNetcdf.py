@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The command `tipp` of the wheel reads the output of models in NetCDF by netCDF4 or h5netcdf, where one is installed. If
-the variable TIPP_CXX names the C++ tool, the two are compared.
+"""The command `tipp` of the wheel reads the output of models in NetCDF by netCDF4 or h5netcdf, where one is installed, and
+writes NetCDF files by them. If the variable TIPP_CXX names the C++ tool, the two are compared.
 
 Usage: TestNetcdf.py TIPP [unittest arguments]
 """
 import importlib.util
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -19,6 +20,8 @@ CXX = os.environ.get("TIPP_CXX")
 HAS_NETCDF4 = importlib.util.find_spec("netCDF4") is not None
 HAS_H5NETCDF = all(importlib.util.find_spec(name) for name in ("h5netcdf", "h5py"))
 HAS_ANY = HAS_NETCDF4 or HAS_H5NETCDF
+HAS_PYPROJ = importlib.util.find_spec("pyproj") is not None
+WITHOUT = "import sys; sys.modules[{!r}] = None; from tipp.__main__ import main; sys.exit(main())"  # without a package
 SHARED = pathlib.Path(__file__).resolve().parents[2].parent / "shared" / "data" / "netcdf"
 
 
@@ -55,6 +58,21 @@ def write_ugrid(path, form="NETCDF4"):
         mean[:] = np.arange(21).reshape(3, 7)
 
 
+def content_of(path):
+    """All that a file has: kind, dimensions, attributes with their types; types, storage and values of variables."""
+    import netCDF4
+
+    def attributes(of):
+        return {name: (of.getncattr(name), getattr(of.getncattr(name), "dtype", str)) for name in of.ncattrs()}
+
+    with netCDF4.Dataset(path) as file:
+        file.set_auto_maskandscale(False)
+        variables = {name: (variable.dtype, variable.dimensions, repr(attributes(variable)), variable.filters(),
+                            variable.chunking() if variable.filters()["zlib"] else None, variable[...].tobytes()) for name, variable in file.variables.items()}
+        dimensions = {name: (len(dimension), dimension.isunlimited()) for name, dimension in file.dimensions.items()}
+        return file.data_model, list(dimensions.items()), list(variables.items()), list(attributes(file).items())
+
+
 class Netcdf(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -69,12 +87,101 @@ class Netcdf(unittest.TestCase):
         self.assertEqual(run.returncode, 0, run.stderr)
         return run.stdout
 
+    def run_without(self, package, *words):
+        run = subprocess.run([sys.executable, "-c", WITHOUT.format(package), *map(str, words)], cwd=self.folder, capture_output=True, text=True)
+        self.assertEqual(run.returncode, 0, run.stderr)
+
+    def write_commands(self):
+        """Writes inputs, and returns commands whose output is b.nc: rasters and meshes, with and without steps."""
+        write_ugrid(self.folder / "a.nc")
+        points = np.random.default_rng(1).random((400, 3))
+        table = np.c_[points, points[:, 0] * 7, np.arange(400)]
+        np.savetxt(self.folder / "data.csv", table, "%.17g", ",", header="x,y,z,\u00e9 height,id", comments="", encoding="utf-8")
+        (self.folder / "box.csv").write_text("x1,y1,x2,y2\n0,0,9,0\n9,0,9,8\n9,8,0,8\n0,8,0,0\n")
+        self.run_tipp("delaunay", "data.csv", "-o", "m.tipp", "--memory", "8M")
+        grid = ["--dims", 21, 17]
+        commands = [["resample", "a.nc", *grid, "--step", "all"], ["resample", "a.nc", *grid, "--reduce", "max", "--arrays", "zeta"],
+                    ["resample", "a.nc", *grid, "--step", "all", "--arrays", "zeta", "depth"], ["resample", "a.nc", "--dims", 700, 600, "--step", 1],
+                    ["flatten", "a.nc"], ["flatten", "m.tipp"], ["delaunay", "data.csv"], ["delaunay", "data.csv", "--map-duplicates"],
+                    ["mesh", "box.csv", "--min-angle", 25, "--max-area", 1]]
+        if HAS_PYPROJ:
+            commands += [["flatten", "m.tipp", "--crs", crs] for crs in ("EPSG:32617", "EPSG:4326", "EPSG:25832+7837")]
+            commands += [["resample", "a.nc", *grid, "--step", "all", "--crs", "EPSG:25832"]]
+        return [[*words, "-o", "b.nc"] for words in commands]
+
+    @unittest.skipUnless(HAS_NETCDF4 and CXX, "netCDF4 is not installed, or TIPP_CXX does not name the C++ tool")
+    def test_written_files_are_those_of_the_cxx_tool(self):
+        for words in self.write_commands():
+            with self.subTest(words):
+                results = []
+                for tool in (TIPP, CXX):
+                    run = self.run_words(*words, tool=tool)
+                    results.append((run.returncode, re.sub(r"[0-9.]+ s.*", "", run.stdout), run.stderr))
+                    results.append(content_of(self.folder / "b.nc") if run.returncode == 0 else None)
+                    (self.folder / "b.nc").unlink(missing_ok=True)
+                self.assertEqual(results[:2], results[2:])
+
+    @unittest.skipUnless(HAS_NETCDF4 and HAS_H5NETCDF, "netCDF4, h5netcdf or h5py is not installed")
+    def test_h5netcdf_writes_the_same(self):
+        def comparable(content):
+            _, dimensions, variables, attributes = content
+            return dict(dimensions), dict(variables), attributes
+
+        for words in self.write_commands():
+            with self.subTest(words):
+                self.run_tipp(*words)
+                expected = comparable(content_of(self.folder / "b.nc"))
+                (self.folder / "b.nc").unlink()
+                self.run_without("netCDF4", *words)
+                self.assertEqual(comparable(content_of(self.folder / "b.nc")), expected)
+                (self.folder / "b.nc").unlink()
+
+    @unittest.skipUnless(HAS_ANY, "neither netCDF4 nor h5netcdf is installed")
+    def test_names_that_netcdf_forbids_are_refused(self):
+        (self.folder / "a.2dm").write_text("MESH2D\nE3T 1 1 2 3 1\nND 1 0 0 1\nND 2 1 0 2\nND 3 0 1 3\n")
+        (self.folder / "a.dat").write_text("DATASET\nOBJTYPE \"mesh2d\"\nBEGSCL\nND 3\nNC 1\nNAME \"a/b\"\nTS 0 0\n1\n2\n3\nENDDS\n")
+        words = ["resample", "a.2dm", "--values", "a.dat", "--dims", 3, 3, "-o", "b.nc"]
+        results = [self.run_words(*words, tool=tool) for tool in (TIPP, CXX) if tool]
+        self.assertEqual(results[0].returncode, 1, results[0].stdout)
+        self.assertIn("at 'a/b': NetCDF: Name contains illegal characters", results[0].stderr)
+        self.assertEqual({run.stderr for run in results}, {results[0].stderr})
+        self.assertEqual(sorted(file.name for file in self.folder.iterdir()), ["a.2dm", "a.dat"])
+
+    @unittest.skipUnless(HAS_ANY, "neither netCDF4 nor h5netcdf is installed")
+    def test_a_file_that_cannot_be_written_is_reported_and_removed(self):
+        np.save(self.folder / "points.npy", np.random.default_rng(1).random((200_000, 3)))
+        code = "import resource, sys; resource.setrlimit(resource.RLIMIT_FSIZE, (1 << 20, 1 << 20)); " + WITHOUT.format("nothing")
+        for package in ("netCDF4", "h5netcdf"):
+            run = subprocess.run([sys.executable, "-c", code.replace("'nothing'", repr(package)), "delaunay", "points.npy", "-o", "b.nc"],
+                                 cwd=self.folder, capture_output=True, text=True)
+            if "pip install" not in run.stderr:  # the other package may not be installed
+                self.assertEqual((run.returncode, run.stderr.count("\n")), (1, 1), run.stderr)
+                self.assertIn("is the disk full?", run.stderr)
+            self.assertEqual(sorted(file.name for file in self.folder.iterdir()), ["points.npy"])
+
+    @unittest.skipIf(HAS_PYPROJ or not HAS_ANY or importlib.util.find_spec("rasterio"), "pyproj or rasterio is installed, or no package that writes")
+    def test_the_package_that_translates_a_system_is_named(self):
+        write_ugrid(self.folder / "a.nc")
+        run = self.run_words("flatten", "a.nc", "-o", "b.nc", "--crs", "EPSG:32617")
+        self.assertEqual((run.returncode, run.stderr.count("\n")), (1, 1), run.stderr)
+        self.assertIn("pip install pyproj", run.stderr)
+
     @unittest.skipIf(HAS_ANY, "netCDF4 or h5netcdf is installed")
     def test_the_package_to_install_is_named(self):
         (self.folder / "a.nc").write_bytes(b"CDF\1")
         run = self.run_words("resample", "a.nc", "-o", "b.npy", "--dims", 3, 3)
         self.assertEqual((run.returncode, run.stderr.count("\n")), (1, 1), run.stderr)
         self.assertIn("pip install netCDF4", run.stderr)
+
+    @unittest.skipIf(HAS_ANY, "netCDF4 or h5netcdf is installed")
+    def test_the_package_that_writes_is_named_before_the_run(self):
+        np.save(self.folder / "points.npy", np.random.default_rng(1).random((9, 3)))
+        self.run_tipp("delaunay", "points.npy", "-o", "a.14")
+        for words in (["delaunay", "points.npy"], ["flatten", "a.14"], ["resample", "a.14", "--dims", 3, 3], ["mesh", "a.14", "--min-angle", 20]):
+            run = self.run_words(*words, "-o", "b.nc")
+            self.assertEqual((run.returncode, run.stderr.count("\n")), (1, 1), run.stderr)
+            self.assertIn("that writes it: pip install netCDF4", run.stderr)
+        self.assertEqual(sorted(file.name for file in self.folder.iterdir()), ["a.14", "points.npy"])
 
     @unittest.skipUnless(HAS_NETCDF4, "netCDF4 is not installed")
     def test_steps_are_sampled(self):
@@ -90,8 +197,7 @@ class Netcdf(unittest.TestCase):
         self.run_tipp(*words)
         expected = (self.folder / "b.npy").read_bytes()
         (self.folder / "b.npy").unlink()
-        code = "import sys; sys.modules['netCDF4'] = None; from tipp.__main__ import main; sys.exit(main())"
-        subprocess.run([sys.executable, "-c", code, *map(str, words)], cwd=self.folder, check=True, capture_output=True)
+        self.run_without("netCDF4", *words)
         self.assertEqual((self.folder / "b.npy").read_bytes(), expected)
 
     @unittest.skipUnless(HAS_NETCDF4, "netCDF4 is not installed")

@@ -46,7 +46,7 @@ std::map<int, int> codesIn(const std::vector<TiffField>& fields)
 class WriteGeoKeys : public testing::Test
 {
 protected:
-  ~WriteGeoKeys() override { setCrsTranslator({}); }
+  ~WriteGeoKeys() override { crsTranslator() = {}; }
 };
 
 /// The horizontal system's code.
@@ -121,8 +121,8 @@ TEST_F(WriteGeoKeys, OtherTextsAreRefused)
 
 TEST_F(WriteGeoKeys, ATranslatorNamesTheCodes)
 {
-  setCrsTranslator([](const std::string& crs)
-    { return crs == "mine" ? std::string("geographic:4326+5773") : std::string(); });
+  crsTranslator().ToGeoKeys = [](const std::string& crs)
+  { return crs == "mine" ? std::string("geographic:4326+5773") : std::string(); };
   EXPECT_EQ((std::map<int, int>{ { 1024, 2 }, { 1025, 1 }, { 2048, 4326 }, { 4096, 5773 } }),
     codesIn(geoKeysWithoutGdal("mine")));
   expectIOError(
