@@ -2,7 +2,6 @@
 """Short descriptions of results, as text and as HTML for notebooks."""
 from __future__ import annotations
 
-import html
 from typing import Mapping, Sequence
 
 import numpy as np
@@ -17,6 +16,8 @@ def as_text(title: str, rows: Rows) -> str:
 
 def as_html(title: str, rows: Rows) -> str:
     """Returns a table. Names of arrays come from files, so all text is escaped."""
+    import html  # slow to load
+
     cells = "".join(f"<tr><th style='text-align:left'>{html.escape(name)}</th>"
                     f"<td style='text-align:left'>{html.escape(text)}</td></tr>" for name, text in rows)
     return f"<table><caption>{html.escape(title)}</caption>{cells}</table>"
