@@ -132,6 +132,11 @@ nb::tuple definitionOf(const NetcdfVariable& variable, const NetcdfStorage& stor
     listOf(variable.Attributes), storage.Chunk, missing);
 }
 
+nb::module_ outputModule()
+{
+  return nb::module_::import_("tipp._netcdf_output");
+}
+
 /// A file that tipp._netcdf_output writes.
 class PythonSink : public NetcdfSink
 {
@@ -154,13 +159,13 @@ public:
         // The memory is only read, and only during the call.
         auto* const memory = static_cast<char*>(const_cast<void*>(values));
         const auto view = nb::steal(PyMemoryView_FromMemory(memory, Py_ssize_t(bytes), PyBUF_READ));
-        this->File.attr("write")(part.Variable, part.Start, part.Count, view);
+        outputModule().attr("write_part")(this->File, part.Variable, part.Start, part.Count, view);
       });
   }
 
   void close() override
   {
-    withPython([this] { this->File.attr("close")(); });
+    withPython([this] { outputModule().attr("close_file")(this->File); });
   }
 
 private:
@@ -183,10 +188,8 @@ std::unique_ptr<NetcdfSink> createFile(
       {
         variables.append(definitionOf(variable, definitions.Storage[std::size_t(variable.Id)]));
       }
-      return std::make_unique<PythonSink>(
-        nb::module_::import_("tipp._netcdf_output")
-          .attr("create_file")(bytesOf(path), definitions.IsClassic, dimensions, variables,
-            listOf(definitions.Content.Attributes)));
+      return std::make_unique<PythonSink>(outputModule().attr("create_file")(bytesOf(path),
+        definitions.IsClassic, dimensions, variables, listOf(definitions.Content.Attributes)));
     });
 }
 

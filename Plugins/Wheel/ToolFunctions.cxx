@@ -7,6 +7,7 @@
 
 #include <nanobind/stl/string.h>
 
+#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -32,7 +33,9 @@ int runWords(const nb::list& words)
     pointers.push_back(text.data());
   }
   pointers.push_back(nullptr);
-  return withoutLock([&] { return runTool(int(texts.size()), pointers.data()); });
+  const int code = withoutLock([&] { return runTool(int(texts.size()), pointers.data()); });
+  std::fflush(nullptr); // the process may end without it
+  return code;
 }
 
 /// Translates a reference system by a function of tipp._crs, as CrsTranslator.

@@ -12,7 +12,10 @@ def main() -> int:
         signal.signal(number, signal.SIG_DFL)
     from ._core import run_tool
 
-    return run_tool([os.fsencode(word) for word in sys.argv[1:]])
+    code = run_tool([os.fsencode(word) for word in sys.argv[1:]])
+    if getattr(sys.modules.get("tipp._netcdf_output"), "failed", []):
+        os._exit(code)  # where a file could not be written, HDF5 crashes when it ends
+    return code
 
 
 if __name__ == "__main__":

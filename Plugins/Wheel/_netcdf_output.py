@@ -2,14 +2,16 @@
 """Writes NetCDF-4 files for the C++ code, with netCDF4 or h5netcdf, as the NetCDF library does in the C++ tool."""
 from __future__ import annotations
 
+import contextlib
 import os
-from typing import Any, Sequence
+from typing import Any, Iterator, Sequence
 
 import numpy as np
 
 _TYPES = {f"{name}{8 * size}": np.dtype(f"{kind}{size}") for name, kind, sizes in (
     ("Int", "i", (1, 2, 4, 8)), ("UInt", "u", (1, 2, 4, 8)), ("Float", "f", (4, 8))) for size in sizes}
 _LEVEL = 1  # of compression, of 9: larger ones take twice the time for a few per cent
+failed: list[Any] = []  # files that could not be written
 _FILL_INT = -2147483647  # the library's fill value of a variable that nobody writes
 
 Attributes = Sequence[tuple[str, bytes, list[float]]]  # name; text, or else integers
@@ -33,19 +35,43 @@ def create_file(path: bytes, is_classic: bool, dimensions: list[tuple[str, int]]
         Those of the file.
     """
     file: _Netcdf4File | _H5netcdfFile
-    try:
-        file = _Netcdf4File(os.fsdecode(path), is_classic)
-    except ImportError:
-        file = _H5netcdfFile(os.fsdecode(path))
-    file.set_attributes(file.file, attributes)
-    for name, size in dimensions:
-        file.add_dimension(name, size or None)
-    for encoded, kind, axes, own, chunk, fill in variables:
-        names = tuple(dimensions[axis][0] for axis in axes)
-        variable = file.add_variable(encoded.decode(), _TYPES[kind], names, chunk, fill)
-        file.set_attributes(variable, own)
-        file.variables.append(variable)
+    with _keeping_failed([]):
+        try:
+            file = _Netcdf4File(os.fsdecode(path), is_classic)
+        except ImportError:
+            file = _H5netcdfFile(os.fsdecode(path))
+    with _keeping_failed(file):
+        file.set_attributes(file.file, attributes)
+        for name, size in dimensions:
+            file.add_dimension(name, size or None)
+        for encoded, kind, axes, own, chunk, fill in variables:
+            names = tuple(dimensions[axis][0] for axis in axes)
+            variable = file.add_variable(encoded.decode(), _TYPES[kind], names, chunk, fill)
+            file.set_attributes(variable, own)
+            file.variables.append(variable)
     return file
+
+
+@contextlib.contextmanager
+def _keeping_failed(file: Any) -> Iterator[None]:
+    """Keeps a file in `failed` if writing it fails, as on a full disk: HDF5 prints errors again, or crashes, when it is
+    told to give up the file. Errors lose the addresses and times that HDF5 appends."""
+    try:
+        yield
+    except (OSError, RuntimeError) as error:
+        failed.append(file)
+        raise RuntimeError(str(error).split(" (file write failed")[0]) from error
+
+
+def write_part(file: _File, variable: int, start: list[int], count: list[int], values: memoryview) -> None:
+    """Writes values in the type of the variable, from an index on a number along each dimension."""
+    with _keeping_failed(file):
+        file.write(variable, start, count, values)
+
+
+def close_file(file: _File) -> None:
+    with _keeping_failed(file):
+        file.close()
 
 
 class _File:
@@ -56,7 +82,6 @@ class _File:
         self.variables: list[Any] = []
 
     def write(self, variable: int, start: list[int], count: list[int], values: memoryview) -> None:
-        """Writes values in the type of the variable, from an index on a number along each dimension."""
         to = self.variables[variable]
         part = tuple(slice(begin, begin + size) for begin, size in zip(start, count))
         to[part] = np.frombuffer(values, to.dtype).reshape(count)
@@ -94,6 +119,7 @@ class _H5netcdfFile(_File):
         import h5netcdf
 
         super().__init__(h5netcdf.File(path, "w"))
+        self._datasets: list[Any] = []  # HDF5's own objects
 
     def add_dimension(self, name: str, size: int | None) -> None:
         self.file.dimensions[name] = size
@@ -106,6 +132,9 @@ class _H5netcdfFile(_File):
         variable = self.file.create_variable(name, dimensions, dtype, fillvalue=missing, **storage)
         if not dimensions:
             variable[...] = _FILL_INT
+        # While these are open, values that are still in memory are written by calls that report a failure, and not
+        # when a temporary object is deleted, where Python only prints it.
+        self._datasets.append(getattr(variable, "_h5ds", None))
         return variable
 
     def set_attributes(self, of: Any, attributes: Attributes) -> None:
@@ -121,3 +150,7 @@ class _H5netcdfFile(_File):
             if self.file.dimensions[axis].isunlimited() and self.file.dimensions[axis].size < end:
                 self.file.resize_dimension(axis, end)
         super().write(variable, start, count, values)
+
+    def close(self) -> None:
+        self.file.flush()
+        super().close()

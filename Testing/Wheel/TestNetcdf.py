@@ -102,7 +102,7 @@ class Netcdf(unittest.TestCase):
         grid = ["--dims", 21, 17]
         commands = [["resample", "a.nc", *grid, "--step", "all"], ["resample", "a.nc", *grid, "--reduce", "max", "--arrays", "zeta"],
                     ["resample", "a.nc", *grid, "--step", "all", "--arrays", "zeta", "depth"], ["resample", "a.nc", "--dims", 700, 600, "--step", 1],
-                    ["flatten", "a.nc"], ["flatten", "m.tipp"], ["delaunay", "data.csv"], ["delaunay", "data.csv", "--map-duplicates"],
+                    ["flatten", "a.nc"], ["flatten", "m.tipp"], ["delaunay", "data.csv"],
                     ["mesh", "box.csv", "--min-angle", 25, "--max-area", 1]]
         if HAS_PYPROJ:
             commands += [["flatten", "m.tipp", "--crs", crs] for crs in ("EPSG:32617", "EPSG:4326", "EPSG:25832+7837")]
