@@ -68,7 +68,8 @@ std::string fileStamp(const std::string& path)
 {
   namespace fs = std::filesystem;
   std::vector<fs::path> files{ path };
-  for (const char* const name : { "index.json", "cells.npy", "points.npy", "time.npy" })
+  for (const char* const name :
+    { "index.json", "cells.npy", "points.npy", "time.npy", "description.json" })
   {
     files.push_back(fs::path(path) / name);
   }
@@ -233,7 +234,11 @@ void vtkPartitionedUnstructuredReader::OpenSource()
   const tipp::TilingChoice choice = tipp::TilingChoice::require(this->Tiling);
   const std::string all = this->FileName + "\n" + this->Tiling + "\n" +
     std::to_string(this->MemoryLimit) + "\n" + std::to_string(this->NumberOfThreads);
-  const std::string stamped = all + fileStamp(this->FileName);
+  std::string stamped = all + fileStamp(this->FileName) + (this->Wrap ? "\nwrapped" : "");
+  for (const std::string& values : this->ValuesFileNames)
+  {
+    stamped += fileStamp(values);
+  }
   if (this->Inner->Source && this->Inner->Opened == stamped)
   {
     return;
@@ -244,8 +249,37 @@ void vtkPartitionedUnstructuredReader::OpenSource()
   options.Tiling = choice;
   options.MemoryLimit = std::uint64_t(this->MemoryLimit);
   options.Threads = this->NumberOfThreads;
+  options.Model = { this->ValuesFileNames, this->Wrap };
   this->Inner->Source = tipp::openPieceSource(this->FileName, options);
   this->Inner->Opened = stamped;
+}
+
+namespace
+{
+
+/// The text for VTK; null if it is empty.
+const char* textOrNull(const std::string& text)
+{
+  return text.empty() ? nullptr : text.c_str();
+}
+
+} // namespace
+
+const char* vtkPartitionedUnstructuredReader::GetTimeUnits() const
+{
+  return this->Inner->Source ? textOrNull(this->Inner->Source->mesh().Description.TimeUnits)
+                             : nullptr;
+}
+
+const char* vtkPartitionedUnstructuredReader::GetCalendar() const
+{
+  return this->Inner->Source ? textOrNull(this->Inner->Source->mesh().Description.Calendar)
+                             : nullptr;
+}
+
+const char* vtkPartitionedUnstructuredReader::GetReferenceSystem() const
+{
+  return this->Inner->Source ? textOrNull(this->Inner->Source->mesh().Description.Crs) : nullptr;
 }
 
 void vtkPartitionedUnstructuredReader::DescribeArrays()
@@ -556,6 +590,8 @@ void vtkPartitionedUnstructuredReader::PrintSelf(ostream& os, vtkIndent indent)
   vtkTIPPPrintMacro(MemoryLimit);
   vtkTIPPPrintMacro(NumberOfThreads);
   vtkTIPPPrintMacro(Tiling);
+  vtkTIPPPrintMacro(ValuesFileNames);
+  vtkTIPPPrintMacro(Wrap);
   vtkTIPPPrintMacro(NumberOfPiecesRead);
   vtkTIPPPrintMacro(NumberOfBytesRead);
   os << indent << "Controller: " << this->Controller << "\n";

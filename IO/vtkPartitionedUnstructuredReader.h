@@ -53,6 +53,8 @@
 #include "vtkTIPPSetGet.h"             // For property macros
 
 #include <memory> // For std::unique_ptr
+#include <string> // For ValuesFileNames
+#include <vector> // For ValuesFileNames
 
 class vtkDataArraySelection;
 
@@ -164,6 +166,33 @@ public:
 
   ///@{
   /**
+   * Of the output of a model: more files, with values at the nodes or cells of the mesh in
+   * FileName, such as fort.63 beside fort.14. None by default.
+   */
+  vtkTIPPNameListMacro(ValuesFileName);
+  ///@}
+
+  ///@{
+  /**
+   * Of the output of a model in degrees: whether cells that cross the meridian at which longitudes
+   * jump are on either side of it. Off by default: then such cells are an error.
+   */
+  vtkTIPPSwitchMacro(Wrap, bool);
+  ///@}
+
+  ///@{
+  /**
+   * The unit and origin of TIME_STEPS in the manner of CF, such as "seconds since 2008-09-01",
+   * their calendar, and the coordinate reference system, such as "EPSG:4326" or WKT; null where the
+   * mesh does not state it. Known after UpdateInformation().
+   */
+  const char* GetTimeUnits() const;
+  const char* GetCalendar() const;
+  const char* GetReferenceSystem() const;
+  ///@}
+
+  ///@{
+  /**
    * The ranks that execute the reader together. The global controller by default. With null this
    * process works alone.
    */
@@ -219,6 +248,8 @@ private:
 
   std::string FileName;
   std::string Tiling = "grid:4x4";
+  std::vector<std::string> ValuesFileNames;
+  bool Wrap = false;
   double Bounds[6];
   bool StrictBounds = false;
   int BorrowerMode = OWNED;

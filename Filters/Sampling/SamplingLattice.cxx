@@ -2,6 +2,7 @@
 #include "Sampling/SamplingLattice.h"
 
 #include "Arrays/Decimal.h"
+#include "Files/TextFile.h"
 
 #include <unistd.h>
 
@@ -48,6 +49,14 @@ std::array<int, 3> chosenDimensions(
     }
   }
   return dimensions;
+}
+
+std::string warningOfOneSample(std::int64_t samples, double distance)
+{
+  return distance > 0 && samples == 1
+    ? "there is one sample, because the distance of samples, " + shortText(distance) +
+      ", is larger than the range; give a smaller one, in the units of the mesh."
+    : "";
 }
 
 Lattice rangeLattice(

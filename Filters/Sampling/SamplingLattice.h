@@ -7,6 +7,8 @@
 #include "vtkTIPPFiltersModule.h"
 
 #include <array>
+#include <cstdint>
+#include <string>
 #include <vector>
 
 namespace tipp
@@ -23,6 +25,10 @@ VTKTIPPFILTERS_EXPORT std::array<int, 3> chosenDimensions(
 /// an invalid range or number.
 Lattice rangeLattice(
   const Box3& bounds, const std::array<int, 3>& dimensions, const std::array<double, 3>& delta);
+
+/// Returns what to say if the samples of a range are so far apart, by a given `distance`, that
+/// there is one; empty if there are more, or if the distance is 0, not given.
+VTKTIPPFILTERS_EXPORT std::string warningOfOneSample(std::int64_t samples, double distance);
 
 /// Returns the two axes that surface cells are sampled along: all except the last axis with one
 /// sample, or except z.

@@ -17,8 +17,6 @@
 
 namespace tipp
 {
-namespace
-{
 
 std::string textOf(const Box2& box)
 {
@@ -27,6 +25,9 @@ std::string textOf(const Box2& box)
        << box.Max.y;
   return text.str();
 }
+
+namespace
+{
 
 void requireMeeting(const MeshSeries& series, const Box2& box, const SeriesRange& range)
 {
@@ -143,7 +144,8 @@ SeriesDescription describeSeries(
   for (const std::size_t i : plan.Variables)
   {
     const SeriesVariable& variable = series.Variables[i];
-    const SeriesField field{ variable.Name, variable.LongName, variable.Units, variable.Varies };
+    const SeriesField field{ variable.Name, variable.LongName, variable.Units, variable.Varies,
+      variable.StandardName };
     if (!variable.Varies || plan.WritesSteps)
     {
       description.Fields.push_back(field);

@@ -57,6 +57,9 @@ struct SeriesSamples
 VTKTIPPFILTERS_EXPORT std::optional<SeriesSamples> findSamples(
   MeshSeries& series, const SeriesRange& range, int threads, const Report& progress = {});
 
+/// Describes a box in words.
+VTKTIPPFILTERS_EXPORT std::string textOf(const Box2& box);
+
 /// The fields that resampleSeries() writes: for each variable those that vary by step, or the one
 /// that does not, and its reductions.
 VTKTIPPFILTERS_EXPORT SeriesDescription describeSeries(

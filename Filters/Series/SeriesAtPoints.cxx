@@ -46,6 +46,7 @@ SeriesAtPoints::SeriesAtPoints(
   , Cells(points.size())
 {
   const ChosenTriangles triangles = trianglesAt(series, points, wraps, threads);
+  this->Bounds = triangles.bounds();
   const SimplexMesh mesh = triangles.mesh();
   std::vector<std::int32_t> inTriangles(points.size(), -1);
   const auto take = [&](const std::int64_t* found, const CellLocation* at, std::int64_t count)

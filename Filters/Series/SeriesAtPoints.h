@@ -28,6 +28,9 @@ public:
   /// The index of the triangle that contains each point; -1: none.
   const std::vector<std::int64_t>& triangles() const { return this->Triangles; }
 
+  /// The bounding box of the mesh's triangles.
+  const Box2& bounds() const { return this->Bounds; }
+
   /// The nodes or cells of the file with the points' values of a variable.
   const std::vector<std::int32_t>& stored(const SeriesVariable& variable) const
   {
@@ -43,6 +46,7 @@ public:
 private:
   void store(const ChosenTriangles& triangles, const std::vector<std::int32_t>& found);
 
+  Box2 Bounds = Box2::empty();
   std::vector<std::int64_t> Triangles;
   ///@{ What each point has the values of: the nodes of its triangle, as positions in StoredNodes,
   /// and their weights, or the position in StoredCells.

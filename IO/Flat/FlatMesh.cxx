@@ -185,6 +185,28 @@ std::vector<double> readTimes(const std::string& folder)
   return times;
 }
 
+constexpr const char* descriptionName = "/description.json";
+
+/// Reads what the folder says of its numbers; nothing if it says nothing.
+MeshDescription readDescription(const std::string& folder)
+{
+  constexpr std::uint64_t most = std::uint64_t(1) << 26;
+  const std::string path = folder + descriptionName;
+  std::error_code ignored;
+  if (!fs::exists(path, ignored))
+  {
+    return {};
+  }
+  const InputFile file(path);
+  if (file.size() > most)
+  {
+    throw IOError(path, "is larger than any description of a mesh; remove it.");
+  }
+  std::string text(std::size_t(file.size()), '\0');
+  file.read(0, text.data(), text.size());
+  return parseDescription(text, path);
+}
+
 /// The number of components if the shape from `axis` on is (n), (n, 1) or (n, c); 0 otherwise.
 std::int64_t componentsFrom(const NpyArray& file, std::size_t axis, std::int64_t tuples)
 {
@@ -287,7 +309,19 @@ FlatMesh openFlatFolder(const std::string& path)
   {
     openData(file, mesh.Cells.Tuples, steps, "cells", mesh.CellData, mesh.CellSeries);
   }
+  mesh.Description = readDescription(path);
   return mesh;
+}
+
+void writeDescription(const std::string& folder, const MeshDescription& description)
+{
+  if (!description.isEmpty())
+  {
+    const std::string text = descriptionText(description, true) + "\n";
+    PendingFile file(folder + descriptionName);
+    file.file().write(0, text.data(), text.size());
+    file.commit();
+  }
 }
 
 /// Returns false if `aborted`, called between steps, returned true.
@@ -415,6 +449,7 @@ bool writeFlatMesh(
   const std::string& in = folder.temporaryPath();
   writeCells(in + "/cells.npy", content);
   writeArray(in + "/points.npy", content.Points, true);
+  writeDescription(in, content.Description);
   if (!content.Times.empty())
   {
     const auto steps = std::int64_t(content.Times.size());

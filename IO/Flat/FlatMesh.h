@@ -4,6 +4,7 @@
 
 #include "Arrays/Scalar.h"
 #include "Files/InputFile.h"
+#include "Files/MeshDescription.h"
 #include "Files/RawArray.h"
 #include "vtkTIPPIOModule.h"
 
@@ -35,7 +36,8 @@ struct FlatMesh
   std::vector<std::vector<RawArray>> PointSeries;
   std::vector<std::vector<RawArray>> CellSeries;
 
-  std::int64_t OtherCells = 0; ///< vertices and lines of a .vtp file, which are left out
+  std::int64_t OtherCells = 0;      ///< vertices and lines of a .vtp file, which are left out
+  MeshDescription Description = {}; ///< what the numbers mean; empty if the files do not say
 };
 
 /// Opens one of two:
@@ -43,7 +45,8 @@ struct FlatMesh
 ///   int64), `points.npy` (n x 2 or n x 3, float32 or float64), `point_data/NAME.npy` (n or n x c,
 ///   any numbers or booleans) and `cell_data/NAME.npy`. If there is `time.npy` (T values,
 ///   ascending), arrays of T x n or T x n x c vary in time. In a file name, % and two hexadecimal
-///   digits encode a byte of the array name, such as `%2F` a slash;
+///   digits encode a byte of the array name, such as `%2F` a slash. `description.json`, if it is
+///   there, says what the numbers mean: see descriptionText();
 /// - a .vtu file with appended, raw, uncompressed, little-endian data and one piece of only
 ///   triangles or only tetrahedra, read in place. Arrays of strings are skipped. In a build without
 ///   VTK also such a .vtp file, whose vertices and lines are left out.
@@ -118,7 +121,8 @@ struct FlatContent
   FlatArray Points;                ///< 2 or 3 coordinates per point
   std::vector<FlatArray> PointData;
   std::vector<FlatArray> CellData;
-  std::vector<double> Times; ///< times of the steps, ascending; empty for a static mesh
+  std::vector<double> Times;        ///< times of the steps, ascending; empty for a static mesh
+  MeshDescription Description = {}; ///< what the numbers mean
 };
 
 /// Writes a folder that openFlatMesh can open; point indices as int32 if they fit. The folder is

@@ -3,6 +3,7 @@
 
 #include "Files/IOError.h"
 #include "Files/RawValues.h"
+#include "Flat/DescribedSeries.h"
 #include "Flat/FlatMesh.h"
 #include "Series/VariableNames.h"
 
@@ -60,6 +61,7 @@ public:
     this->Path = path;
     this->Nodes = this->Mesh.Points.Tuples;
     this->Times = this->Mesh.Times;
+    describeTimes(*this, this->Mesh.Description);
     for (const bool onCells : { false, true })
     {
       for (const RawArray& array : onCells ? this->Mesh.CellData : this->Mesh.PointData)
@@ -116,6 +118,7 @@ public:
     const Source& source = this->Sources[variable];
     values =
       readComponent(source.Steps[this->Variables[variable].Varies ? step : 0], source.Component);
+    removeMarks(this->Variables[variable], values);
   }
 
   void readAt(std::size_t variable, std::size_t step, const std::vector<std::int32_t>& at,
@@ -134,6 +137,7 @@ public:
         values[i] = read[std::size_t(at[i] - begin)];
       }
     }
+    removeMarks(this->Variables[variable], values);
   }
 
 private:
@@ -149,12 +153,10 @@ private:
   void add(const std::vector<RawArray>& steps, bool onCells, bool varies)
   {
     const RawArray& first = steps.front();
+    addVariables(
+      *this, { first.Name, first.Type, first.Components, onCells, varies }, this->Mesh.Description);
     for (int i = 0; i < first.Components; ++i)
     {
-      const std::string name =
-        first.Components == 1 ? first.Name : first.Name + "_" + std::to_string(i);
-      this->Variables.push_back(
-        { freeName(this->Variables, name), "", "", first.Type, onCells, varies });
       this->Sources.push_back({ steps, i });
     }
   }

@@ -6,7 +6,10 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <memory>
+#include <optional>
+#include <type_traits>
 #include <vector>
 
 namespace tipp
@@ -26,15 +29,33 @@ const char* valuesAt(const FlatArray& array, std::size_t step)
   return static_cast<const char*>(array.Values) + step * bytes;
 }
 
-/// Copies one component of the values at a step. The array must outlive the result.
-std::function<const void*(std::size_t)> readerOf(const FlatArray& array, int component)
+/// Replaces a value that stands for none by NaN, if the numbers have one.
+void removeMark(Scalar type, double mark, std::vector<char>& values)
 {
-  if (array.Components == 1)
+  withScalar(type,
+    [&](auto zero)
+    {
+      using T = decltype(zero);
+      if constexpr (std::is_floating_point_v<T>)
+      {
+        auto* const begin = reinterpret_cast<T*>(values.data());
+        std::replace(
+          begin, begin + values.size() / sizeof(T), T(mark), std::numeric_limits<T>::quiet_NaN());
+      }
+    });
+}
+
+/// Copies one component of the values at a step; `missing` becomes NaN. The array must outlive the
+/// result.
+std::function<const void*(std::size_t)> readerOf(
+  const FlatArray& array, int component, const std::optional<double>& missing = std::nullopt)
+{
+  if (array.Components == 1 && !missing)
   {
     return [&array](std::size_t step) { return valuesAt(array, step); };
   }
   const auto values = std::make_shared<std::vector<char>>();
-  return [&array, component, values](std::size_t step)
+  return [&array, component, values, missing](std::size_t step)
   {
     const std::size_t size = scalarSize(array.Type);
     const char* from = valuesAt(array, step) + std::size_t(component) * size;
@@ -44,18 +65,23 @@ std::function<const void*(std::size_t)> readerOf(const FlatArray& array, int com
       std::memcpy(values->data() + i * size, from, size);
       from += std::size_t(array.Components) * size;
     }
+    if (missing)
+    {
+      removeMark(array.Type, *missing, *values);
+    }
     return static_cast<const void*>(values->data());
   };
 }
 
-void add(UgridContent& to, const FlatArray& array, bool onCells)
+void add(UgridContent& to, const FlatArray& array, bool onCells, const MeshDescription& description)
 {
+  const ArrayDescription described = description.arrayOf(array.Name, onCells);
   for (int i = 0; i < array.Components; ++i)
   {
-    const std::string name =
-      array.Components == 1 ? array.Name : array.Name + "_" + std::to_string(i);
-    to.Arrays.push_back({ freeName(to.Arrays, name), "", "", array.Type, onCells, array.Steps > 0,
-      readerOf(array, i) });
+    const std::string name = described.nameOf(array.Name, i, array.Components);
+    to.Arrays.push_back(
+      { freeName(to.Arrays, name), described.LongName, described.Units, array.Type, onCells,
+        array.Steps > 0, readerOf(array, i, described.Missing), described.StandardName });
   }
 }
 
@@ -103,7 +129,7 @@ UgridContent ugridOf(const FlatContent& content, const std::string& source)
   { return content.Cells[3 * std::size_t(triangle) + std::size_t(corner)]; };
   for (const FlatArray& array : content.PointData)
   {
-    add(result, array, false);
+    add(result, array, false, content.Description);
   }
   if (dimension == 3 && haveHeights(points))
   {
@@ -112,9 +138,12 @@ UgridContent ugridOf(const FlatContent& content, const std::string& source)
   }
   for (const FlatArray& array : content.CellData)
   {
-    add(result, array, true);
+    add(result, array, true, content.Description);
   }
   result.Times = content.Times;
+  result.TimeUnits = content.Description.TimeUnits;
+  result.Calendar = content.Description.Calendar;
+  result.Crs = content.Description.Crs;
   return result;
 }
 

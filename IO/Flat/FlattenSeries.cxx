@@ -3,6 +3,7 @@
 
 #include "Series/StepReader.h"
 
+#include <cmath>
 #include <memory>
 #include <string>
 #include <utility>
@@ -20,6 +21,33 @@ FlatArray ownedArray(std::string name, Scalar type, std::vector<T> values, int c
   const auto kept = std::make_shared<std::vector<T>>(std::move(values));
   const auto tuples = std::int64_t(kept->size()) / components;
   return { std::move(name), type, components, tuples, 0, kept->data(), kept };
+}
+
+/// What the array says of itself whose first component is a variable.
+ArrayDescription descriptionOf(
+  const MeshSeries& series, std::size_t first, const FlatArray& array, bool marksMissing)
+{
+  const SeriesVariable& variable = series.Variables[first];
+  ArrayDescription description;
+  description.LongName = variable.LongName;
+  description.StandardName = variable.StandardName;
+  description.Units = variable.Units;
+  if (marksMissing && !std::isnan(variable.Mark))
+  {
+    description.Missing = variable.Mark;
+  }
+  bool isUsual = true;
+  for (int i = 0; i < array.Components; ++i)
+  {
+    description.Components.push_back(series.Variables[first + std::size_t(i)].Name);
+    isUsual = isUsual &&
+      description.Components.back() == ArrayDescription().nameOf(array.Name, i, array.Components);
+  }
+  if (isUsual)
+  {
+    description.Components.clear();
+  }
+  return description;
 }
 
 /// The array of a variable, or of the vector whose components begin with it.
@@ -56,6 +84,7 @@ FlatContent flattenSeries(MeshSeries& series, bool marksMissing)
   {
     const bool isOnCells = series.Variables[i].OnCells;
     FlatArray array = arrayOf(series, i, isOnCells ? cells : content.Points.Tuples, marksMissing);
+    content.Description.add(array.Name, isOnCells, descriptionOf(series, i, array, marksMissing));
     i += std::size_t(array.Components);
     (isOnCells ? content.CellData : content.PointData).push_back(std::move(array));
   }
@@ -65,6 +94,9 @@ FlatContent flattenSeries(MeshSeries& series, bool marksMissing)
       ownedArray("OriginalCellId", Scalar::Int64, std::move(mesh.OriginalCells), 1));
   }
   content.Times = series.Times;
+  content.Description.TimeUnits = series.TimeUnits;
+  content.Description.Calendar = series.Calendar;
+  content.Description.Crs = series.Crs;
   return content;
 }
 

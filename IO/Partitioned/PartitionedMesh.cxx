@@ -99,6 +99,13 @@ public:
     return *found;
   }
 
+  /// Null if there is none.
+  const Json* find(const char* name) const
+  {
+    const auto found = this->Object.find(name);
+    return found == this->Object.end() ? nullptr : &*found;
+  }
+
   std::int64_t integer(const char* name, std::int64_t least, std::int64_t most) const
   {
     const std::optional<std::int64_t> value = integerOf(this->get(name));
@@ -298,7 +305,7 @@ std::string indexText(const PartitionedMesh& mesh, const std::string& pvtu)
   std::transform(mesh.Arrays.begin(), mesh.Arrays.end(), std::back_inserter(arrays), packArray);
   OrderedJson pieces = OrderedJson::array();
   std::transform(mesh.Pieces.begin(), mesh.Pieces.end(), std::back_inserter(pieces), packPiece);
-  const OrderedJson json = {
+  OrderedJson json = {
     { "format", formatName },
     { "version", formatVersion },
     { "cell_type", mesh.CellSize == 3 ? "triangle" : "tetrahedron" },
@@ -315,6 +322,10 @@ std::string indexText(const PartitionedMesh& mesh, const std::string& pvtu)
     { "pvtu_bytes", pvtu.size() },
     { "pvtu_xxh3", checksumText(checksumOf(pvtu.data(), pvtu.size())) },
   };
+  if (!mesh.Description.isEmpty())
+  {
+    json["description"] = OrderedJson::parse(descriptionText(mesh.Description, false));
+  }
   // One line per field, and one per piece.
   std::string text = "{";
   for (const auto& [name, value] : json.items())
@@ -370,6 +381,10 @@ PartitionedMesh parseIndex(const std::string& text, const std::string& path)
   {
     fields.require(time.is_number() && std::isfinite(time.get<double>()), "has wrong times");
     mesh.Times.push_back(time.get<double>());
+  }
+  if (const Json* const description = fields.find("description"))
+  {
+    mesh.Description = parseDescription(description->dump(), path);
   }
   parseArrays(fields, path, mesh);
   parsePieces(fields, path, mesh);

@@ -3,6 +3,7 @@
 #define tippPartitionedMesh_h
 
 #include "Files/IOError.h"
+#include "Files/MeshDescription.h"
 #include "Files/PendingOutput.h"
 #include "Files/RawArray.h"
 #include "Predicates/Geometry.h"
@@ -83,6 +84,7 @@ struct PartitionedMesh
   Box3 Domain;                        ///< the box that the pieces' boxes tile
   std::string Tiling;                 ///< as requested: "grid:4x4", "quadtree:100000"
   std::vector<double> Times;          ///< times of the steps, ascending; empty for a static mesh
+  MeshDescription Description;        ///< what the numbers mean; empty if the index does not say
   std::vector<StoredArray> Arrays;    ///< point arrays first
   std::vector<PieceSummary> Pieces;   ///< in the order of piece indices
   std::uint64_t PvtuBytes = 0;        ///< size of mesh.pvtu, once it is written

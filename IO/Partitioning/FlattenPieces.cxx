@@ -156,6 +156,7 @@ FlatContent flattenPieces(const PartitionedMesh& mesh)
     (array.OfPoints ? content.PointData : content.CellData).push_back(std::move(flat));
   }
   content.Times = mesh.Times;
+  content.Description = mesh.Description;
   return content;
 }
 

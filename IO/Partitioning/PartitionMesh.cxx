@@ -30,6 +30,7 @@ namespace fs = std::filesystem;
 
 std::vector<RawArray> describeArrays(const FlatMesh& mesh, PartitionedMesh& result)
 {
+  result.Description = mesh.Description;
   std::vector<RawArray> arrays;
   const auto add = [&](const RawArray& array, bool ofPoints, int step)
   {
@@ -474,8 +475,6 @@ PartitionStatistics partitionSeries(const std::string& input, const std::string&
   if (series)
   {
     statistics.VariablesLeftOut = series->LeftOut;
-    statistics.TimeUnits = series->TimeUnits;
-    statistics.Crs = series->Crs;
   }
   return statistics;
 }

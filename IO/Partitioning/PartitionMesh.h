@@ -44,8 +44,8 @@ VTKTIPPIO_EXPORT PartitionStatistics partitionInMemory(const std::function<FlatC
   vtkMultiProcessController* controller = nullptr);
 
 /// Lists the flat mesh's attributes in result.Arrays, one for each step of those that vary in time,
-/// and returns their arrays in the same order. Throws IOError if two names would be equal in the
-/// pieces.
+/// copies what the mesh says of its numbers, and returns their arrays in the same order. Throws
+/// IOError if two names would be equal in the pieces.
 std::vector<RawArray> describeArrays(const FlatMesh& mesh, PartitionedMesh& result);
 
 /// Merges all ranks' data sets, or those in vtkPartitionedDataSets, into one on the first rank;

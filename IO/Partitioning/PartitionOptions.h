@@ -57,12 +57,8 @@ struct PartitionStatistics
   /// Of a VTK data set on the first rank: as in Flattened.
   std::map<std::string, std::int64_t> LeftOut;
   std::int64_t GhostCells = 0;
-  ///@{
   /// Of the output of a model, on the first rank: see MeshSeries.
   std::vector<SeriesLeftOut> VariablesLeftOut;
-  std::string TimeUnits;
-  std::string Crs;
-  ///@}
   std::uint64_t SpilledBytes = 0; ///< on all ranks
   std::uint64_t MeshBytes = 0;    ///< size of all files
   int Ranks = 1;

@@ -3,6 +3,7 @@
 
 #include "Files/IOError.h"
 #include "Files/RawValues.h"
+#include "Flat/DescribedSeries.h"
 #include "Partitioned/PartitionedMesh.h"
 #include "Partitioning/FlattenPieces.h"
 #include "Series/VariableNames.h"
@@ -32,6 +33,7 @@ public:
     this->Kind = "partitioned mesh";
     this->Nodes = this->Mesh.Points;
     this->Times = this->Mesh.Times;
+    describeTimes(*this, this->Mesh.Description);
     for (const FlatArray& array : this->Content.PointData)
     {
       this->add(array, false);
@@ -68,6 +70,7 @@ public:
     values = componentOf(*array,
       array->StepValues ? array->StepValues(std::int64_t(varies ? step : 0)) : array->Values,
       component);
+    removeMarks(this->Variables[variable], values);
   }
 
 private:
@@ -97,12 +100,10 @@ private:
 
   void add(const FlatArray& array, bool onCells)
   {
+    addVariables(*this, { array.Name, array.Type, array.Components, onCells, array.Steps > 0 },
+      this->Mesh.Description);
     for (int i = 0; i < array.Components; ++i)
     {
-      const std::string name =
-        array.Components == 1 ? array.Name : array.Name + "_" + std::to_string(i);
-      this->Variables.push_back(
-        { freeName(this->Variables, name), "", "", array.Type, onCells, array.Steps > 0 });
       this->Sources.push_back({ &array, i });
     }
   }

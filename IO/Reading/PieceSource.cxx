@@ -399,8 +399,8 @@ Buffer<char> numbersBelow(std::int64_t count)
 class SeriesPieces : public PieceSource
 {
 public:
-  explicit SeriesPieces(const std::string& path)
-    : Series(openMeshSeries(path))
+  SeriesPieces(const std::string& path, const SeriesOptions& options)
+    : Series(openMeshSeries(path, options))
     , Content(flattenSeries(*this->Series, false))
   {
     this->Mesh.Path = path;
@@ -410,6 +410,7 @@ public:
     this->Mesh.Cells = std::int64_t(this->Content.Cells.size()) / this->Content.CellSize;
     this->Mesh.Tiling = "grid:1x1";
     this->Mesh.Times = this->Content.Times;
+    this->Mesh.Description = this->Content.Description;
     this->describeArrays();
     this->describePiece();
   }
@@ -546,6 +547,13 @@ void requireSameMesh(Communicator& ranks, const PartitionedMesh& mesh)
 
 std::unique_ptr<PieceSource> openPieceSource(const std::string& path, const SourceOptions& options)
 {
+  const bool isSeries = isMeshSeries(path);
+  if (!isSeries && (options.Model.Wrap || !options.Model.Values.empty()))
+  {
+    throw IOError(path,
+      std::string("is not the output of a model, which alone takes ") +
+        (options.Model.Wrap ? "--wrap" : "--values") + "; leave it out.");
+  }
   if (isPartitionedMesh(path))
   {
     return std::make_unique<StoredPieces>(path, options.Threads);
@@ -554,9 +562,9 @@ std::unique_ptr<PieceSource> openPieceSource(const std::string& path, const Sour
   {
     return std::make_unique<FlatPieces>(openFlatMesh(path), options);
   }
-  if (isMeshSeries(path))
+  if (isSeries)
   {
-    return std::make_unique<SeriesPieces>(path);
+    return std::make_unique<SeriesPieces>(path, options.Model);
   }
   throw IOError(path,
     "is neither a partitioned mesh (its folder or index), nor a flat one (a folder of .npy arrays, "

@@ -7,6 +7,7 @@
 #include "Partitioning/MeshTiling.h"
 #include "Predicates/Geometry.h"
 #include "Ranks/Communicator.h"
+#include "Series/MeshSeries.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -25,8 +26,9 @@ struct SourceOptions
 {
   TilingChoice Tiling; ///< for a flat mesh; a partitioned one has its own
   std::uint64_t MemoryLimit = std::uint64_t(2)
-    << 30;         ///< in bytes, not counting the pieces themselves
-  int Threads = 0; ///< 0: defaultThreads()
+    << 30;                  ///< in bytes, not counting the pieces themselves
+  int Threads = 0;          ///< 0: defaultThreads()
+  SeriesOptions Model = {}; ///< how the output of a model is read
 };
 
 /// A source of pieces: a partitioned mesh on disk, a flat mesh that is partitioned as it is read,
@@ -55,7 +57,8 @@ protected:
   PartitionedMesh Mesh;
 };
 
-/// Opens a partitioned or a flat mesh, or the output of a model; throws IOError.
+/// Opens a partitioned or a flat mesh, or the output of a model; throws IOError. The first two take
+/// no options of a model.
 std::unique_ptr<PieceSource> openPieceSource(
   const std::string& path, const SourceOptions& options = {});
 

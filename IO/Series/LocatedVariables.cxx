@@ -133,6 +133,7 @@ private:
     located.Variable = &variable;
     located.Described = { variable.Name, variable.text("long_name"), variable.text("units"),
       variable.unpackedType(), isOnCells, located.TimeAxis >= 0 };
+    located.Described.StandardName = variable.text("standard_name");
     this->Result.Variables.push_back(std::move(located));
   }
 

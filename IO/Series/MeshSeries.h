@@ -32,6 +32,7 @@ struct SeriesVariable
   /// What stands for NaN where the values are written to other files, if the format has a mark that
   /// its users know, such as -99999 of ADCIRC.
   double Mark = std::numeric_limits<double>::quiet_NaN();
+  std::string StandardName = {}; ///< of CF, as in the file, or empty
 };
 
 /// A variable that a MeshSeries does not offer, or cells that are left out of its mesh.

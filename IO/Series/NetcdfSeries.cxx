@@ -2,6 +2,8 @@
 #include "Series/NetcdfSeries.h"
 
 #include "Files/IOError.h"
+#include "Files/MeshDescription.h"
+#include "Files/TextFile.h"
 #include "Netcdf/NetcdfFile.h"
 #include "Netcdf/NetcdfHook.h"
 #include "Series/CellSeries.h"
@@ -45,19 +47,25 @@ std::string crsOf(const NetcdfVariable& variable)
       return "EPSG:" + std::to_string(int(code));
     }
     const std::string text = variable.text(name);
-    if (text.compare(0, 5, "EPSG:") == 0)
+    if (text.compare(0, 5, "EPSG:") == 0 && isCrsText(text))
     {
       return text;
     }
   }
   for (const char* name : { "crs_wkt", "spatial_ref" })
   {
-    if (!variable.text(name).empty())
+    if (isCrsText(variable.text(name)))
     {
       return variable.text(name);
     }
   }
   return "";
+}
+
+/// Whether a variable of CF's grid mappings has a text that should be a reference system.
+bool isStated(const NetcdfVariable& mapping)
+{
+  return !mapping.text("crs_wkt").empty() || !mapping.text("spatial_ref").empty();
 }
 
 class NetcdfSeries : public CellSeries
@@ -155,6 +163,12 @@ private:
       if (const NetcdfVariable* const mapping = content.find(variable.text("grid_mapping")))
       {
         this->Crs = this->Crs.empty() ? crsOf(*mapping) : this->Crs;
+        if (this->Crs.empty() && isStated(*mapping))
+        {
+          this->LeftOut.push_back(
+            { mapping->Name, "states the reference system by a text that is none of WKT" });
+          return;
+        }
       }
     }
     if (this->Crs.empty() && isInDegrees(this->Mesh))

@@ -18,9 +18,10 @@ namespace tipp
 struct SeriesField
 {
   std::string Name;
-  std::string LongName; ///< may be empty
-  std::string Units;    ///< may be empty
-  bool Varies = false;  ///< has samples of its own for each time step
+  std::string LongName;          ///< may be empty
+  std::string Units;             ///< may be empty
+  bool Varies = false;           ///< has samples of its own for each time step
+  std::string StandardName = {}; ///< of CF; may be empty
 };
 
 /// Fields on a regular grid in the plane, and the time steps of those that vary.

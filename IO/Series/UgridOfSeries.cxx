@@ -22,9 +22,9 @@ UgridContent ugridOf(MeshSeries& series)
   {
     const SeriesVariable& variable = series.Variables[i];
     const auto reader = std::make_shared<StepReader>(series, i, 1, false);
-    content.Arrays.push_back(
-      { variable.Name, variable.LongName, variable.Units, reader->type(), variable.OnCells,
-        variable.Varies, [reader](std::size_t step) { return reader->read(step); } });
+    content.Arrays.push_back({ variable.Name, variable.LongName, variable.Units, reader->type(),
+      variable.OnCells, variable.Varies, [reader](std::size_t step) { return reader->read(step); },
+      variable.StandardName });
   }
   if (!mesh->OriginalCells.empty())
   {

@@ -92,6 +92,7 @@ private:
     const int variable = this->Output.addVariable(field.Name, Scalar::Float32, own);
     this->Output.fillWithNaN(variable, Scalar::Float32);
     this->Output.setText(variable, "long_name", field.LongName);
+    this->Output.setText(variable, "standard_name", field.StandardName);
     this->Output.setText(variable, "units", field.Units);
     this->Output.setText(variable, "grid_mapping", hasCrs ? "crs" : "");
     // Chunks of a quarter of a million samples of one step: they are read for a map or a station.

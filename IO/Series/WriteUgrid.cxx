@@ -164,6 +164,7 @@ private:
     this->Output.setText(variable, "mesh", "mesh2d");
     this->Output.setText(variable, "location", array.OnCells ? "face" : "node");
     this->Output.setText(variable, "long_name", array.LongName);
+    this->Output.setText(variable, "standard_name", array.StandardName);
     this->Output.setText(variable, "units", array.Units);
     this->Output.setText(variable, "grid_mapping", this->Wkt.empty() ? "" : "crs");
     this->Output.setText(

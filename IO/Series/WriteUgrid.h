@@ -29,6 +29,7 @@ struct UgridArray
   bool Varies = false; ///< has values of its own for each time step
   /// Returns the values of a step, valid until the next call; called once a step, or once.
   std::function<const void*(std::size_t step)> Values;
+  std::string StandardName = {}; ///< of CF; may be empty
 };
 
 /// A mesh of triangles in the plane to be written. Clockwise triangles are turned.

@@ -21,6 +21,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <optional>
 
 namespace
 {
@@ -72,6 +73,10 @@ private:
     content.PointData = { { "level", Scalar::Float32, 1, 4, 2, level.data(), {} } };
     content.CellData = { { "pair", Scalar::Float64, 2, 2, 0, xy.data(), {} } };
     content.Times = { 0, 1 };
+    content.Description.TimeUnits = "days since 2001-02-03";
+    content.Description.Crs = "EPSG:4326";
+    content.Description.add("level", false, { "water level", "", "m", -99999, {} });
+    content.Description.add("pair", true, { "", "", "", std::nullopt, { "u", "v" } });
     writeFlatMesh(this->flat().string(), content);
   }
 
@@ -135,8 +140,8 @@ std::string drawMesh(std::mt19937_64& random)
     return path.string();
   }
   const char* const files[] = { "cells.npy", "points.npy", "time.npy", "point_data/level.npy",
-    "cell_data/pair.npy" };
-  const char* const changed = files[random() % 5];
+    "cell_data/pair.npy", "description.json" };
+  const char* const changed = files[random() % 6];
   const fs::path folder = seeds().scratch("changed");
   for (const char* const file : files)
   {

@@ -41,7 +41,8 @@ constexpr const char* flattenFooter =
         or MPAS. Its time steps are read one after another.
         A partitioned mesh (.tipp) or, for .nc, a flat mesh.
 OUTPUT  a folder that does not exist yet: cells.npy, points.npy, point_data/NAME.npy, cell_data/NAME.npy and, for
-        values that vary in time, time.npy. Or a mesh of triangles in NetCDF by UGRID (.nc).
+        values that vary in time, time.npy; description.json states units, the calendar and
+        the reference system. Or a mesh of triangles in NetCDF by UGRID (.nc).
 
 Other cells are cut into triangles or tetrahedra. Cells of a lower dimension, ghost
 cells and arrays of strings are left out. The command reports the cells that it has cut
@@ -162,10 +163,6 @@ int flattenModelOutput(const FlattenArguments& arguments)
   if (code == Success)
   {
     warnOfVariablesLeftOut(series->Path, series->LeftOut);
-    if (!isFile(arguments))
-    {
-      warnOfDescriptionLost(series->Path, series->TimeUnits, series->Crs);
-    }
   }
   return code;
 }
@@ -380,7 +377,6 @@ int run(PartitionArguments& arguments)
       double(peakMemoryBytes()) / 1e6);
     warnOfCellsLeftOut(arguments.Input, statistics.LeftOut, statistics.GhostCells);
     warnOfVariablesLeftOut(arguments.Input, statistics.VariablesLeftOut);
-    warnOfDescriptionLost(arguments.Input, statistics.TimeUnits, statistics.Crs);
   }
   return Success;
 }

@@ -44,7 +44,8 @@ duplicates, and a resolution for 'tipp dem' that gives about one point per pixel
 file it prints the levels, each with its points. Of text it prints which columns are x, y
 and z. Of the output of a model, in NetCDF or SELAFIN, it prints the mesh, the variables with
 their units, the time steps, and what is left out and why; of a flat or partitioned mesh its
-cells, arrays and time steps. A line 'check' names what may not be meant, and the option for it.
+cells, arrays and time steps, with the units that it states. A line 'check' names what may not
+be meant, and the option for it.
 
 Examples:
   tipp info tile.las
@@ -425,18 +426,20 @@ void describeMesh(const std::string& path)
     fmt::print(
       "{:<11} {} to {}\n", std::string(1, char('x' + axis)), bounds.Min[axis], bounds.Max[axis]);
   }
-  if (!mesh.Times.empty())
-  {
-    fmt::print(
-      "steps       {}, {} to {}\n", mesh.Times.size(), mesh.Times.front(), mesh.Times.back());
-  }
+  const MeshDescription& described = mesh.Description;
+  printTimes(mesh.Times, described.TimeUnits, described.Calendar);
   for (const StoredArray& array : mesh.Arrays)
   {
     if (array.Step <= 0) // each step is an array
     {
-      fmt::print("{:<11} {}{}\n", array.Name, array.OfPoints ? "at points" : "on cells",
-        array.Step == 0 ? ", varies" : "");
+      const ArrayDescription about = described.arrayOf(array.Name, !array.OfPoints);
+      printArray(array.Name, array.OfPoints ? "at points" : "on cells", array.Step == 0,
+        about.Units, about.LongName);
     }
+  }
+  if (!described.Crs.empty())
+  {
+    fmt::print("CRS         {}\n", described.Crs);
   }
 }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/Commands.h"
-#include "Commands/OpenSeries.h"
 #include "Commands/PointArguments.h"
 #include "Commands/QuerySeries.h"
 #include "Commands/Report.h"
@@ -22,6 +21,7 @@
 #include "Query/WriteLines.h"
 #include "Ranks/Communicator.h"
 #include "Resident/ResidentMesh.h"
+#include "Series/StepSelection.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -114,6 +114,20 @@ std::unique_ptr<ResidentMesh> openQueryMesh(const QueryMeshArguments& arguments)
   catch (const std::runtime_error& error)
   {
     throw IOError(arguments.Path, std::string("cannot be used: ") + error.what());
+  }
+}
+
+/// Says which time step is evaluated where several are stored and none was asked for.
+void noteStep(const QueryMeshArguments& arguments, const ResidentMesh& mesh)
+{
+  const std::vector<double>& times = mesh.mesh().Times;
+  const std::string& units = mesh.mesh().Description.TimeUnits;
+  if (times.size() > 1 && arguments.Step.empty())
+  {
+    fmt::print(stderr,
+      "tipp: warning: {}: has {} time steps, and the values are those of the first one, at {}{}; "
+      "give --step.\n",
+      arguments.Path, times.size(), times.front(), units.empty() ? "" : " " + units);
   }
 }
 
@@ -573,6 +587,10 @@ void answerTogether(const QueryArguments& arguments, Communicator& ranks)
       { arguments.Points, arguments.Mesh.Path, arguments.Zones.Path, arguments.Region.Polygons });
   }
   const std::unique_ptr<ResidentMesh> mesh = openQueryMesh(arguments.Mesh);
+  if (ranks.isFirst())
+  {
+    noteStep(arguments.Mesh, *mesh);
+  }
   if (!arguments.Region.Ids.empty())
   {
     writeRegion(shared, *mesh, arguments.Region, arguments.Output, before);
@@ -599,6 +617,10 @@ void answerAll(const QueryArguments& arguments, Communicator& ranks)
     before = requireWritable(arguments.Output, "", { arguments.Points, arguments.Mesh.Path });
   }
   const std::unique_ptr<ResidentMesh> mesh = openQueryMesh(arguments.Mesh);
+  if (ranks.isFirst())
+  {
+    noteStep(arguments.Mesh, *mesh);
+  }
   AnswerOptions options;
   options.Arrays = arguments.Arrays.empty() ? mesh->names() : arguments.Arrays;
   options.Weights = arguments.Weights;
@@ -843,6 +865,10 @@ void makeContours(const ContourArguments& arguments, Communicator& ranks)
   std::unique_ptr<ResidentMesh> mesh = ranks.isFirst() || isPartitionedMesh(arguments.Mesh.Path)
     ? openQueryMesh(arguments.Mesh)
     : std::make_unique<ResidentMesh>(MeshPart());
+  if (ranks.isFirst())
+  {
+    noteStep(arguments.Mesh, *mesh);
+  }
   const std::vector<double> levels =
     arguments.Interval > 0 ? levelsOf(ranks, *mesh, arguments) : arguments.Levels;
   const Contours contours = contoursOf(*mesh, arguments.Array, arguments.Component, levels, &ranks);

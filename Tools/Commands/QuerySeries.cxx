@@ -11,7 +11,9 @@
 #include "Flat/FlatMesh.h"
 #include "Npy/NpyFile.h"
 #include "Parallel/ParallelFor.h"
+#include "Series/ResampleSeries.h"
 #include "Series/SeriesAtPoints.h"
+#include "Series/StepSelection.h"
 
 #include <fmt/format.h>
 
@@ -41,12 +43,12 @@ class StationLines : public StationTable
 {
 public:
   StationLines(const std::string& path, const PathState& before, std::vector<Point3> stations,
-    const std::vector<std::string>& names, bool hasTimes)
+    const std::vector<std::string>& names, bool hasTimes, const std::string& timeName)
     : Pending(path, before)
     , Stations(std::move(stations))
     , HasTimes(hasTimes)
   {
-    std::string header = std::string(hasTimes ? "time," : "") + "station,x,y";
+    std::string header = (hasTimes ? quotedField(timeName) + "," : "") + "station,x,y";
     for (const std::string& name : names)
     {
       header += "," + quotedField(name);
@@ -154,6 +156,37 @@ std::vector<Point3> readStations(const StationArguments& arguments)
   return stations;
 }
 
+/// The name of the column of times, with their unit in brackets, as tables have it.
+std::string timeName(const MeshSeries& series)
+{
+  const std::string& calendar = series.Calendar;
+  const bool isUsual = calendar.empty() || calendar == "standard" || calendar == "gregorian" ||
+    calendar == "proleptic_gregorian";
+  return series.TimeUnits.empty()
+    ? "time"
+    : "time (" + series.TimeUnits + (isUsual ? "" : ", calendar " + calendar) + ")";
+}
+
+/// Throws IOError if all stations are outside of the mesh.
+void requireInside(
+  const SeriesAtPoints& located, const std::vector<Point3>& stations, const StationArguments& of)
+{
+  const auto outside = std::count(located.triangles().begin(), located.triangles().end(), -1);
+  if (stations.empty() || outside < std::int64_t(stations.size()))
+  {
+    return;
+  }
+  Box2 box = Box2::empty();
+  for (const Point3& station : stations)
+  {
+    box.extend(Point2{ station.x, station.y });
+  }
+  throw IOError(of.Points,
+    "has no point in the mesh: the points have " + textOf(box) +
+      ", and the triangles of the mesh " + textOf(located.bounds()) +
+      "; give points in the units and the reference system of the mesh.");
+}
+
 std::unique_ptr<StationTable> createTable(const StationArguments& arguments,
   const PathState& before, const MeshSeries& series, const std::vector<std::size_t>& variables,
   const std::vector<Point3>& stations, std::size_t steps)
@@ -170,7 +203,7 @@ std::unique_ptr<StationTable> createTable(const StationArguments& arguments,
     names.push_back(series.Variables[i].Name);
   }
   return std::make_unique<StationLines>(
-    arguments.Output, before, stations, names, !series.Times.empty());
+    arguments.Output, before, stations, names, !series.Times.empty(), timeName(series));
 }
 
 } // namespace
@@ -196,6 +229,7 @@ int runStations(const StationArguments& arguments)
   const std::vector<Point3> stations = readStations(arguments);
   const SeriesAtPoints located(
     *series, stations, arguments.Reading.Wrap != 0, threadCount(arguments.Threads));
+  requireInside(located, stations, arguments);
   const std::unique_ptr<StationTable> table =
     createTable(arguments, before, *series, variables, stations, steps.size());
   ProgressBar bar("reading");

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/Commands.h"
-#include "Commands/OpenSeries.h"
 #include "Commands/PointArguments.h"
 #include "Commands/ResampleArguments.h"
 #include "Console/Process.h"
 #include "Files/Formats.h"
+#include "Series/StepSelection.h"
 
 #include <CLI/CLI.hpp>
 

@@ -9,6 +9,7 @@
 #include "Npy/NpyFile.h"
 #include "Raster/RasterFile.h"
 #include "Sampling/SampleNames.h"
+#include "Sampling/SamplingLattice.h"
 
 #include <fmt/format.h>
 
@@ -196,8 +197,18 @@ void writeImage(
   }
 }
 
+void warnOfOneSample(const ResampleArguments& arguments, std::int64_t samples)
+{
+  const double distance = arguments.Delta.empty() ? 0 : arguments.Delta.front();
+  if (const std::string warning = warningOfOneSample(samples, distance); !warning.empty())
+  {
+    fmt::print(stderr, "tipp: warning: {}: {}\n", arguments.Input, warning);
+  }
+}
+
 void summarize(const ResampleArguments& arguments, const ResampleFigures& figures)
 {
+  warnOfOneSample(arguments, figures.Samples);
   fmt::print("{} of {} samples from {} cells, {:.3f} s{}, in {}\n", figures.Hits, figures.Samples,
     figures.Cells, figures.Seconds, figures.Device.empty() ? "" : " on " + figures.Device,
     arguments.Output);

@@ -49,6 +49,9 @@ struct ResampleFigures
   std::string Device;
 };
 
+/// Warns if there is one sample, because the distance of samples is larger than the range.
+void warnOfOneSample(const ResampleArguments& arguments, std::int64_t samples);
+
 /// Prints the last line of a run.
 void summarize(const ResampleArguments& arguments, const ResampleFigures& figures);
 

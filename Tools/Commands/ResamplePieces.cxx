@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What 'tipp resample' does without VTK: it samples flat and partitioned meshes piece by piece.
-#include "Commands/OpenSeries.h"
 #include "Commands/PointArguments.h"
 #include "Commands/Report.h"
 #include "Commands/ResampleArguments.h"
@@ -18,6 +17,7 @@
 #include "Reading/PieceSource.h"
 #include "Sampling/SampledPieces.h"
 #include "Sampling/SamplingLattice.h"
+#include "Series/StepSelection.h"
 
 #include <fmt/format.h>
 

@@ -4,11 +4,14 @@
 #include "Commands/PointArguments.h"
 #include "Commands/Report.h"
 #include "Commands/ResampleArguments.h"
+#include "Commands/ResampleImage.h"
 #include "Console/Process.h"
 #include "Files/IOError.h"
 #include "Parallel/Stopwatch.h"
 #include "Raster/RasterFile.h"
+#include "Series/PlanSeries.h"
 #include "Series/SeriesFiles.h"
+#include "Series/StepSelection.h"
 
 #include <fmt/format.h>
 
@@ -41,81 +44,22 @@ void refuseOthers(const ResampleArguments& arguments)
   refuseIf(arguments.WithSteps && arguments.Reduce.empty(), "--with-steps", "needs --reduce");
 }
 
-std::vector<std::size_t> variablesOf(const MeshSeries& series, const ResampleArguments& arguments)
+SeriesRequest requestOf(const ResampleArguments& arguments)
 {
-  std::vector<std::size_t> variables;
-  for (const std::string& name : arguments.Arrays)
-  {
-    variables.push_back(findSeriesVariable(series, name));
-  }
-  const bool isAll = arguments.Arrays.empty();
-  for (std::size_t i = 0; isAll && i < series.Variables.size(); ++i)
-  {
-    // Reductions are of what varies.
-    if (series.Variables[i].Varies || arguments.Reduce.empty() || arguments.WithSteps)
-    {
-      variables.push_back(i);
-    }
-  }
-  return variables;
-}
-
-/// The variable of --waterline. Throws IOError if it does not fit.
-std::size_t depthOf(const MeshSeries& series, const SeriesPlan& plan, const std::string& name)
-{
-  const std::size_t depth = findSeriesVariable(series, name);
-  const auto isLevel = [&series](std::size_t i)
-  { return series.Variables[i].Varies && !series.Variables[i].OnCells; };
-  if (series.Variables[depth].OnCells || series.Variables[depth].Varies)
-  {
-    throw IOError(series.Path,
-      "has '" + name + "', but --waterline needs depths at nodes that do not vary in time.");
-  }
-  if (plan.Variables.size() != 1 || !isLevel(plan.Variables[0]))
-  {
-    throw IOError(series.Path,
-      "has several arrays, and --waterline is for one, a water level at nodes that varies in time; "
-      "name it with --arrays.");
-  }
-  return depth;
-}
-
-SeriesPlan planOf(const MeshSeries& series, const ResampleArguments& arguments)
-{
-  SeriesPlan plan;
-  plan.Variables = variablesOf(series, arguments);
-  if (plan.Variables.empty())
-  {
-    throw IOError(series.Path,
-      arguments.Reduce.empty() ? "has no values at its nodes or cells."
-                               : "has no values that vary in time, which --reduce needs.");
-  }
   for (const std::string& text : arguments.Reduce)
   {
-    const std::optional<SeriesReduction> reduction = SeriesReduction::parse(text);
-    refuseIf(
-      !reduction, "--reduce", "is '" + text + "'; give max, min, mean, time-of-max or above:LEVEL");
-    plan.Reductions.push_back(*reduction);
+    refuseIf(!SeriesReduction::parse(text), "--reduce",
+      "is '" + text + "'; give max, min, mean, time-of-max or above:LEVEL");
   }
-  plan.WritesSteps = arguments.Reduce.empty() || arguments.WithSteps;
-  if (!series.Times.empty())
-  {
-    const std::string steps = arguments.Step.empty() ? "all" : arguments.Step;
-    plan.Steps = parseSteps(steps, series.Times.size(), series.Path);
-  }
-  else
-  {
-    parseSteps(arguments.Step, 0, series.Path);
-    refuseIf(
-      !arguments.Reduce.empty(), "--reduce", "needs time steps, and " + series.Path + " has none");
-  }
-  if (!arguments.Waterline.empty())
-  {
-    plan.Depth = depthOf(series, plan, arguments.Waterline);
-  }
-  plan.NoData = arguments.NoData;
-  plan.Threads = threadCount(arguments.Threads);
-  return plan;
+  SeriesRequest request;
+  request.Arrays = arguments.Arrays;
+  request.Step = arguments.Step;
+  request.Reduce = arguments.Reduce;
+  request.WithSteps = arguments.WithSteps;
+  request.Waterline = arguments.Waterline;
+  request.NoData = arguments.NoData;
+  request.Threads = arguments.Threads;
+  return request;
 }
 
 SeriesRange rangeOf(const ResampleArguments& arguments)
@@ -156,7 +100,7 @@ int runSeries(const ResampleArguments& arguments)
   refuseOthers(arguments);
   const std::unique_ptr<MeshSeries> series =
     openSeries(arguments.Input, { arguments.Values, arguments.Wrap });
-  SeriesPlan plan = planOf(*series, arguments);
+  SeriesPlan plan = planSeries(*series, requestOf(arguments));
   if (!arguments.Crs.empty())
   {
     series->Crs = arguments.Crs;
@@ -193,6 +137,7 @@ int runSeries(const ResampleArguments& arguments)
     return reportInterrupt();
   }
   output->close();
+  warnOfOneSample(arguments, samples->Grid.samples());
   summarize(arguments, *samples, plan, finding, *times);
   return Success;
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What 'tipp resample' does with VTK: it samples any mesh with vtkRangeResampleFilter.
 #include "Arrays/Scalar.h"
-#include "Commands/OpenSeries.h"
 #include "Commands/PointArguments.h"
 #include "Commands/Report.h"
 #include "Commands/ResampleArguments.h"
@@ -15,6 +14,7 @@
 #include "Reading/PieceSource.h"
 #include "Sampling/SamplingRange.h"
 #include "Sampling/SimplexParts.h"
+#include "Series/StepSelection.h"
 #include "Vtk/DataSets.h"
 
 #include "vtkCallbackCommand.h"

@@ -32,48 +32,30 @@ void printMesh(const SeriesMesh& mesh)
     "x           {} to {}\ny           {} to {}\n", box.Min.x, box.Max.x, box.Min.y, box.Max.y);
 }
 
-void printTimes(const MeshSeries& series)
+} // namespace
+
+void printTimes(
+  const std::vector<double>& times, const std::string& units, const std::string& calendar)
 {
-  if (!series.Times.empty())
+  if (!times.empty())
   {
-    fmt::print("steps       {}, {} to {}{}{}\n", series.Times.size(), series.Times.front(),
-      series.Times.back(), series.TimeUnits.empty() ? "" : " " + series.TimeUnits,
-      series.Calendar.empty() ? "" : ", calendar " + series.Calendar);
+    fmt::print("steps       {}, {} to {}{}{}\n", times.size(), times.front(), times.back(),
+      units.empty() ? "" : " " + units, calendar.empty() ? "" : ", calendar " + calendar);
   }
 }
 
-void printVariable(const SeriesVariable& variable)
+void printArray(const std::string& name, const char* where, bool varies, const std::string& units,
+  const std::string& longName)
 {
-  fmt::print("{:<11} {}{}{}{}\n", variable.Name, variable.OnCells ? "on cells" : "at nodes",
-    variable.Varies ? ", varies" : "", variable.Units.empty() ? "" : ", in " + variable.Units,
-    variable.LongName.empty() ? "" : ": " + variable.LongName);
+  fmt::print("{:<11} {}{}{}{}\n", name, where, varies ? ", varies" : "",
+    units.empty() ? "" : ", in " + units, longName.empty() ? "" : ": " + longName);
 }
-
-} // namespace
 
 void warnOfVariablesLeftOut(const std::string& path, const std::vector<SeriesLeftOut>& leftOut)
 {
   for (const SeriesLeftOut& left : leftOut)
   {
     fmt::print(stderr, "tipp: warning: {}: {} {}.\n", shownPath(path), left.Name, left.Reason);
-  }
-}
-
-void warnOfDescriptionLost(
-  const std::string& path, const std::string& timeUnits, const std::string& crs)
-{
-  if (!timeUnits.empty())
-  {
-    fmt::print(stderr,
-      "tipp: warning: {}: its times are '{}', and the output has the numbers alone.\n",
-      shownPath(path), timeUnits);
-  }
-  if (!crs.empty())
-  {
-    fmt::print(stderr,
-      "tipp: warning: {}: the output does not state the reference system, {}; give it again with "
-      "--crs where it matters.\n",
-      shownPath(path), crs);
   }
 }
 
@@ -88,10 +70,11 @@ void describeSeries(MeshSeries& series)
   {
     fmt::print("check       {}\n", error.what());
   }
-  printTimes(series);
+  printTimes(series.Times, series.TimeUnits, series.Calendar);
   for (const SeriesVariable& variable : series.Variables)
   {
-    printVariable(variable);
+    printArray(variable.Name, variable.OnCells ? "on cells" : "at nodes", variable.Varies,
+      variable.Units, variable.LongName);
   }
   fmt::print("CRS         {}\n", series.Crs.empty() ? "not given" : series.Crs);
   for (const SeriesLeftOut& left : series.LeftOut)

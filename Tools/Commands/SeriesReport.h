@@ -15,9 +15,14 @@ struct SeriesLeftOut;
 /// with the reason.
 void warnOfVariablesLeftOut(const std::string& path, const std::vector<SeriesLeftOut>& leftOut);
 
-/// Warns of what flat and partitioned meshes do not keep of the output of a model.
-void warnOfDescriptionLost(
-  const std::string& path, const std::string& timeUnits, const std::string& crs);
+/// Prints the number of time steps, the first and the last time, and their unit; nothing if there
+/// are none.
+void printTimes(
+  const std::vector<double>& times, const std::string& units, const std::string& calendar);
+
+/// Prints an array: where its values are, whether they vary, and what they are.
+void printArray(const std::string& name, const char* where, bool varies, const std::string& units,
+  const std::string& longName);
 
 /// Prints the mesh, its variables, the time steps, and what is left out.
 void describeSeries(MeshSeries& series);

@@ -262,6 +262,12 @@ TEST_F(DamagedMesh, HasAWrongType)
   this->expectRefused("index.json", "wrong type");
 }
 
+TEST_F(DamagedMesh, HasADescriptionOfAWrongType)
+{
+  this->editIndex("\"tiling\":", "\"description\": {\"crs\": 5},\n\"tiling\":");
+  this->expectRefused("index.json", "'crs' is no text");
+}
+
 TEST_F(DamagedMesh, HasAnArrayLargerThanItsFile)
 {
   this->editIndex("\"components\":2", "\"components\":200000");

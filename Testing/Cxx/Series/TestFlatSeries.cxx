@@ -6,6 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <fstream>
+
 using namespace tipp;
 using namespace tipp::test;
 
@@ -72,4 +75,57 @@ TEST(FlatSeries, RefusesTetrahedra)
   folder.write<std::int32_t>("cells.npy", "<i4", "(1, 4)", { 0, 1, 2, 3 });
   folder.write<float>("points.npy", "<f4", "(4, 3)", { 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1 });
   expectIOError(folder.path(), "has tetrahedra", [&] { openFlatSeries(folder.path()); });
+}
+
+namespace
+{
+
+/// Writes a square with two steps of a level, of which one value is missing, and of a wind.
+void describeSquare(const FlatFolderMaker& folder)
+{
+  folder.writeSquare();
+  folder.write<double>("time.npy", "<f8", "(2,)", { 0, 60 });
+  folder.write<float>("point_data/level.npy", "<f4", "(2, 4)", { 1, 2, 3, 4, 5, -99999, 7, 8 });
+  folder.write<double>("point_data/wind.npy", "<f8", "(4, 2)", { 1, 2, 3, 4, 5, 6, 7, 8 });
+  std::ofstream(folder.path("description.json")) << R"({
+    "time_units": "minutes since 2001-02-03", "calendar": "noleap", "crs": "EPSG:4326",
+    "point_data": {
+      "level": {"long_name": "water level", "units": "m", "standard_name": "sea_level",
+        "missing_value": -99999},
+      "wind": {"units": "m s-1", "components": ["u", "v"]}}})";
+}
+
+} // namespace
+
+TEST(FlatSeries, SaysWhatItsNumbersMean)
+{
+  const FlatFolderMaker folder;
+  describeSquare(folder);
+  const auto series = openFlatSeries(folder.path());
+  EXPECT_EQ("minutes since 2001-02-03", series->TimeUnits);
+  EXPECT_EQ("noleap", series->Calendar);
+  EXPECT_EQ("EPSG:4326", series->Crs);
+  const SeriesVariable& level = series->Variables[findSeriesVariable(*series, "level")];
+  EXPECT_EQ("water level", level.LongName);
+  EXPECT_EQ("sea_level", level.StandardName);
+  EXPECT_EQ("m", level.Units);
+  EXPECT_EQ("m s-1", series->Variables[findSeriesVariable(*series, "u")].Units);
+  std::vector<double> values;
+  series->read(findSeriesVariable(*series, "v"), 0, values);
+  EXPECT_EQ((std::vector<double>{ 2, 4, 6, 8 }), values);
+}
+
+TEST(FlatSeries, TakesTheMissingValueForNaN)
+{
+  const FlatFolderMaker folder;
+  describeSquare(folder);
+  const auto series = openFlatSeries(folder.path());
+  const std::size_t level = findSeriesVariable(*series, "level");
+  std::vector<double> values;
+  series->read(level, 1, values);
+  EXPECT_EQ(5, values[0]);
+  EXPECT_TRUE(std::isnan(values[1]));
+  series->readAt(level, 1, { 1, 2 }, values);
+  EXPECT_TRUE(std::isnan(values[0]));
+  EXPECT_EQ(7, values[1]);
 }

@@ -128,24 +128,74 @@ TEST_F(TippUgrid, PiecesHaveTheSameMapsAndSeriesThroughTime)
   EXPECT_NE(std::string::npos, series[0].find("60,1,0.5,0.125,10.5")) << series[0];
 }
 
-TEST_F(TippUgrid, FoldersAndPiecesNameWhatTheyDoNotState)
+/// The NetCDF file "mesh.nc" of a surge that says what its numbers mean, and what is made of it.
+class TippDescribed : public TippUgrid
 {
-  this->flatten({ "surge", "--crs", "EPSG:4326" }, "mesh.nc");
-  for (const Words& words : { Words{ "flatten", "mesh.nc", "-o", "folder" },
-         Words{ "partition", "mesh.nc", "-o", "mesh.tipp", "--tiling", "grid:1x2" } })
+protected:
+  TippDescribed()
+  {
+    this->Folder.file("surge/description.json", R"({
+      "time_units": "seconds since 2018-09-01 00:00:00", "calendar": "gregorian",
+      "crs": "EPSG:32617", "point_data": {"level": {"units": "m", "missing_value": -99999,
+        "long_name": "water level", "standard_name": "sea_surface_height_above_geoid"}}})");
+    this->flatten({ "surge" }, "mesh.nc");
+  }
+
+  void make(const Words& words) const
   {
     const Outcome outcome = runTipp(this->Folder, words);
     ASSERT_EQ(0, outcome.ExitCode) << outcome.Err;
-    EXPECT_NE(std::string::npos, outcome.Err.find("the output does not state the reference system"))
-      << outcome.Err;
+    EXPECT_EQ("", outcome.Err);
   }
+
+  void makeFolderAndPieces() const
+  {
+    this->make({ "flatten", "mesh.nc", "-o", "folder" });
+    this->make({ "partition", "mesh.nc", "-o", "mesh.tipp", "--tiling", "grid:1x2" });
+  }
+
+  /// Expects two NetCDF files to have the same variables, attributes and values, except for the
+  /// name of the file that they were made of.
+  void expectEqual(const std::string& a, const std::string& b) const
+  {
+    NetcdfFile first(this->Folder.path(a));
+    NetcdfFile second(this->Folder.path(b));
+    ASSERT_EQ(first.content().Variables.size(), second.content().Variables.size());
+    for (const NetcdfVariable& variable : first.content().Variables)
+    {
+      const NetcdfVariable* const other = second.content().find(variable.Name);
+      ASSERT_NE(nullptr, other) << variable.Name;
+      EXPECT_EQ(first.content().shape(variable), second.content().shape(*other));
+      EXPECT_EQ(variable.Type, other->Type) << variable.Name;
+      EXPECT_EQ(variable.Attributes.size(), other->Attributes.size()) << variable.Name;
+      for (const NetcdfAttribute& attribute : variable.Attributes)
+      {
+        EXPECT_EQ(attribute.Text, other->text(attribute.Name))
+          << variable.Name << ":" << attribute.Name;
+      }
+      const std::vector<double> values = first.read(variable);
+      const std::vector<double> others = second.read(*other);
+      ASSERT_EQ(values.size(), others.size());
+      for (std::size_t i = 0; i < values.size(); ++i)
+      {
+        EXPECT_TRUE(values[i] == others[i] || (std::isnan(values[i]) && std::isnan(others[i])))
+          << variable.Name << " " << i;
+      }
+    }
+  }
+};
+
+TEST_F(TippDescribed, IsDescribedByInfoAsTheFile)
+{
+  this->makeFolderAndPieces();
   for (const char* mesh : { "folder", "mesh.tipp" })
   {
     const Outcome outcome = runTipp(this->Folder, { "info", mesh });
     ASSERT_EQ(0, outcome.ExitCode) << outcome.Err;
-    for (const char* line :
-      { "triangles   2\n", "x           0 to 1\n", "steps       4, 0 to 240\n",
-        "level       at points, varies\n", "depth       at points\n" })
+    for (const char* line : { "triangles   2\n",
+           "steps       4, 0 to 240 seconds since 2018-09-01 00:00:00, calendar gregorian\n",
+           "level       at points, varies, in m: water level\n", "depth       at points\n",
+           "CRS         PROJCS[" })
     {
       EXPECT_NE(std::string::npos, outcome.Out.find(line)) << outcome.Out;
     }
@@ -160,6 +210,74 @@ TEST_F(TippUgrid, FolderOfPiecesWithoutItsIndexIsReported)
   const Outcome outcome = runTipp(this->Folder, { "info", "empty.tipp" });
   EXPECT_NE(0, outcome.ExitCode);
   EXPECT_NE(std::string::npos, outcome.Err.find("empty.tipp/index.json")) << outcome.Err;
+}
+
+TEST_F(TippDescribed, HasTheSameMapsInFoldersAndPieces)
+{
+  this->makeFolderAndPieces();
+  for (const std::string mesh : { "mesh.nc", "folder", "mesh.tipp" })
+  {
+    this->make({ "resample", mesh, "-o", mesh + ".maps.nc", "--step", "all", "--dims", "9", "7" });
+  }
+  NetcdfFile file(this->Folder.path("mesh.nc.maps.nc"));
+  const NetcdfVariable* const level = file.content().find("level");
+  ASSERT_NE(nullptr, level);
+  EXPECT_EQ("seconds since 2018-09-01 00:00:00", file.content().find("time")->text("units"));
+  EXPECT_EQ("gregorian", file.content().find("time")->text("calendar"));
+  EXPECT_EQ(0u, file.content().find("crs")->text("crs_wkt").find("PROJCS"));
+  EXPECT_EQ("sea_surface_height_above_geoid", level->text("standard_name"));
+  EXPECT_EQ("m", level->text("units"));
+  EXPECT_TRUE(std::isnan(file.read(*level).back())); // the dry corner
+  this->expectEqual("mesh.nc.maps.nc", "folder.maps.nc");
+  this->expectEqual("mesh.nc.maps.nc", "mesh.tipp.maps.nc");
+}
+
+TEST_F(TippDescribed, IsTheSameUgridFromFoldersAndPieces)
+{
+  this->makeFolderAndPieces();
+  this->flatten({ "folder" }, "folder.nc");
+  this->flatten({ "mesh.tipp" }, "pieces.nc");
+  this->expectEqual("mesh.nc", "folder.nc");
+  this->expectEqual("mesh.nc", "pieces.nc");
+}
+
+TEST_F(TippDescribed, KeepsTheDescriptionFromPiecesToAFolder)
+{
+  this->makeFolderAndPieces();
+  this->make({ "flatten", "mesh.tipp", "-o", "joined" });
+  EXPECT_EQ(contentOf(this->Folder.path("folder/description.json")),
+    contentOf(this->Folder.path("joined/description.json")));
+  this->make({ "partition", "joined", "-o", "again.tipp", "--tiling", "grid:1x2" });
+  EXPECT_EQ(contentOf(this->Folder.path("mesh.tipp/index.json")),
+    contentOf(this->Folder.path("again.tipp/index.json")));
+}
+
+TEST_F(TippDescribed, NamesTheUnitOfTimesAtStations)
+{
+  this->makeFolderAndPieces();
+  this->Folder.file("stations.csv", "x,y\n0.25,0.5\n");
+  std::vector<std::string> series;
+  for (const char* mesh : { "mesh.nc", "folder", "mesh.tipp" })
+  {
+    this->make(
+      { "query", "stations.csv", mesh, "-o", "series.csv", "--step", "all", "--arrays", "level" });
+    series.push_back(contentOf(this->Folder.path("series.csv")));
+  }
+  EXPECT_EQ("time (seconds since 2018-09-01 00:00:00),station,x,y,level",
+    series[0].substr(0, series[0].find('\n')));
+  EXPECT_EQ(series[0], series[1]);
+  EXPECT_EQ(series[0], series[2]);
+}
+
+TEST_F(TippDescribed, KeepsDryNodesOfAdcirc)
+{
+  this->Folder.file("fort.14", "title\n1 3\n1 0 0 5\n2 4 0 5\n3 0 4 5\n1 3 1 2 3\n");
+  this->Folder.file(
+    "fort.63", "title\n2 3 60 1 1\n60 1\n1 0.5\n2 0.5\n3 0.5\n120 2\n1 0.25\n2 -99999\n3 0.5\n");
+  this->make({ "flatten", "fort.14", "--values", "fort.63", "-o", "flat" });
+  this->make({ "resample", "fort.14", "--values", "fort.63", "--dims", "5", "5", "-o", "a.nc" });
+  this->make({ "resample", "flat", "--step", "all", "--dims", "5", "5", "-o", "b.nc" });
+  this->expectEqual("a.nc", "b.nc");
 }
 
 TEST_F(TippUgrid, IsPartitionedWithItsSteps)

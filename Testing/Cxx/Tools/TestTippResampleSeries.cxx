@@ -217,6 +217,52 @@ TEST_F(TippResampleSeries, IsAskedForValuesAtStations)
     contentOf(this->Folder.path("series.csv")));
 }
 
+TEST_F(TippResampleSeries, RefusesStationsThatAreAllOutside)
+{
+  this->Folder.file("gauges.csv", "x,y\n500000,4000000\n510000,4010000\n");
+  const Outcome outcome =
+    runTipp(this->Folder, { "query", "gauges.csv", "surge", "-o", "series.csv" });
+  EXPECT_EQ(1, outcome.ExitCode);
+  EXPECT_NE(outcome.Err.find("gauges.csv: has no point in the mesh: the points have x from 500000 "
+                             "to 510000, y from 4e+06 to 4.01e+06, and the triangles of the mesh x "
+                             "from 0 to 1, y from 0 to 1"),
+    std::string::npos)
+    << outcome.Err;
+  EXPECT_FALSE(this->exists("series.csv"));
+}
+
+TEST_F(TippResampleSeries, WarnsOfOneSample)
+{
+  for (const char* step : { "all", "1" })
+  {
+    const Outcome outcome =
+      this->run({ "-o", "one.npy", "--step", step, "--arrays", "level" }, "--resolution=5000");
+    EXPECT_EQ(0, outcome.ExitCode) << outcome.Err;
+    EXPECT_NE(outcome.Err.find("surge: there is one sample, because the distance of samples, 5000, "
+                               "is larger than the range"),
+      std::string::npos)
+      << outcome.Err;
+  }
+  EXPECT_EQ("",
+    this->run({ "-o", "some.npy", "--step", "all", "--arrays", "level" }, "--resolution=0.75").Err);
+}
+
+TEST_F(TippResampleSeries, NamesTheStepOfAQueryWithoutOne)
+{
+  this->Folder.file("gauges.csv", "x,y\n0.5,0.25\n");
+  ASSERT_EQ(0, runTipp(this->Folder, { "partition", "surge", "-o", "surge.tipp" }).ExitCode);
+  const Words query = { "query", "gauges.csv", "surge.tipp", "-o", "values.csv" };
+  const Outcome first = runTipp(this->Folder, query);
+  EXPECT_EQ(0, first.ExitCode) << first.Err;
+  EXPECT_NE(first.Err.find("surge.tipp: has 4 time steps, and the values are those of the first "
+                           "one, at 0; give --step."),
+    std::string::npos)
+    << first.Err;
+  Words second = query;
+  second.insert(second.end(), { "--step", "0" });
+  EXPECT_EQ("", runTipp(this->Folder, second).Err);
+}
+
 TEST_F(TippResampleSeries, IsAskedForStationsAsAnArray)
 {
   this->Folder.file("gauges.csv", "x,y\n0.5,0.25\n1,0\n");
