@@ -38,7 +38,7 @@ set(tipp_python_more_names "")
 set(tipp_python_other_names "")
 set(tipp_python_listed_names "")
 set(tipp_python_summary
-  "and the VTK classes that these use: vtkTIPPDelaunay2D, vtkTIPPDelaunay3D, vtkTIPPOutOfCoreDelaunay2D,\nvtkTIPPRefine2D, vtkTIPPRemap, vtkTIPPCutFill, vtkTIPPPointsToImage, vtkRangeResampleFilter,\nvtkPartitionedMeshQuery, vtkTIPPPointReader, vtkPartitionedUnstructuredReader and vtkPartitionedUnstructuredWriter.")
+  "and the VTK classes that these use: vtkTIPPDelaunay2D, vtkTIPPDelaunay3D, vtkTIPPOutOfCoreDelaunay2D,\nvtkTIPPRefine2D, vtkTIPPRemap, vtkTIPPCutFill, vtkTIPPPointsToImage, vtkTIPPResampleSeries,\nvtkRangeResampleFilter, vtkPartitionedMeshQuery, vtkTIPPPointReader, vtkPartitionedUnstructuredReader and\nvtkPartitionedUnstructuredWriter.")
 foreach (module IN LISTS tipp_wrapped_modules)
   string(REPLACE "TIPP::" "vtk" library "${module}")
   add_dependencies(tipp_python "${library}Python")

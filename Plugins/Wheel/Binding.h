@@ -7,11 +7,14 @@
 #include "Parallel/Stopwatch.h"
 #include "Points/ReadPoints.h"
 #include "Resample/SimplexMesh.h"
+#include "Series/MeshSeries.h"
 #include "Triangulation/PointsView.h"
 
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -44,6 +47,12 @@ Value of(const nb::dict& options, const char* name)
       (std::string(name) + " has a value of a wrong type, or one that is too large.").c_str());
   }
   return value;
+}
+
+/// How the output of a model is read.
+inline SeriesOptions seriesOptions(const nb::dict& options)
+{
+  return { of<std::vector<std::string>>(options, "values"), of<bool>(options, "wrap") };
 }
 
 /// A NumPy array of any type, to read only. The Python side makes sure that it is in C order.
@@ -234,6 +243,7 @@ void addMeshFunctions(nb::module_& module);
 void addNetcdfFunctions();
 void addOverlapFunctions(nb::module_& module);
 void addQueryClass(nb::module_& module);
+void addSeriesFunctions(nb::module_& module);
 void addToolFunctions(nb::module_& module);
 
 /// Issues Python warnings of what readers report, and of a reference system that is not understood.

@@ -147,6 +147,7 @@ NB_MODULE(_core, module)
     });
   tipp::python::addTriangulateFunctions(module);
   tipp::python::addMeshFunctions(module);
+  tipp::python::addSeriesFunctions(module);
   tipp::python::addNetcdfFunctions();
   tipp::python::addOverlapFunctions(module);
   tipp::python::addGridFunctions(module);

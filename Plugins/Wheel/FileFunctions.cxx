@@ -191,16 +191,28 @@ nb::tuple tetrahedralizeFiles(
   return nb::make_tuple(figuresOf(statistics, "tetrahedra", statistics.Tetrahedra), warnings);
 }
 
-std::unique_ptr<PieceSource> openSource(
-  const std::string& path, const std::string& tiling, std::uint64_t memory)
+std::unique_ptr<PieceSource> openSource(const std::string& path, const std::string& tiling,
+  std::uint64_t memory, const SeriesOptions& model)
 {
-  return openPieceSource(path, { TilingChoice::require(tiling), memory });
+  return openPieceSource(path, { TilingChoice::require(tiling), memory, 0, model });
+}
+
+/// Returns the times of a mesh's steps, their unit and calendar.
+nb::tuple timesOf(const std::string& path, const nb::dict& given)
+{
+  const SeriesOptions model = seriesOptions(given);
+  const auto source = withoutLock([&] { return openPieceSource(path, { {}, 1, 0, model }); });
+  const PartitionedMesh& mesh = source->mesh();
+  return nb::make_tuple(mesh.Times, mesh.Description.TimeUnits, mesh.Description.Calendar);
 }
 
 /// Returns the names of a mesh's point arrays and cell arrays.
-nb::tuple arrayNames(const std::string& path, const std::string& tiling, std::uint64_t memory)
+nb::tuple arrayNames(const std::string& path, const nb::dict& given)
 {
-  const auto source = withoutLock([&] { return openSource(path, tiling, memory); });
+  const auto tiling = of<std::string>(given, "tiling");
+  const auto memory = of<std::uint64_t>(given, "memory_limit");
+  const SeriesOptions model = seriesOptions(given);
+  const auto source = withoutLock([&] { return openSource(path, tiling, memory, model); });
   Strings names[2];
   for (const StoredArray& array : source->mesh().Arrays)
   {
@@ -297,6 +309,7 @@ nb::list readMesh(const std::string& path, const std::optional<std::array<double
   const bool borrowed = of<bool>(given, "borrowed");
   const bool isMerged = of<bool>(given, "merge");
   const bool isStrict = of<bool>(given, "strict_bounds");
+  const SeriesOptions model = seriesOptions(given);
   std::vector<Piece> pieces;
   try
   {
@@ -304,7 +317,7 @@ nb::list readMesh(const std::string& path, const std::optional<std::array<double
       [&]
       {
         const PollScope polled([&] { return reporter(0); });
-        const auto source = openSource(path, tiling, memory);
+        const auto source = openSource(path, tiling, memory, model);
         const std::vector<double>& times = source->mesh().Times;
         PieceOptions options;
         if (time)
@@ -424,6 +437,7 @@ void addFileFunctions(nb::module_& module)
   module.def("tetrahedralize_files", &tetrahedralizeFiles);
   module.def("array_names", &arrayNames);
   module.def("read", &readMesh);
+  module.def("times", &timesOf);
   module.def("partition_file", &partitionFile);
   module.def("partition_arrays", &partitionArrays);
 }

@@ -390,7 +390,7 @@ def read(path: str, options: dict[str, Any], progress: Progress | None) -> Mesh 
         return _vtkxml.read(path, options)
     if _vtkxml.extension_of(path) == ".vtu":
         _vtkxml.require_raw(path)
-    of_points, of_cells = _core.array_names(path, options["tiling"], options["memory_limit"])
+    of_points, of_cells = _core.array_names(path, options)
     check.require_arrays(options["point_arrays"], of_points, "point")
     check.require_arrays(options["cell_arrays"], of_cells, "cell")
     bounds = options["bounds"]
@@ -403,6 +403,19 @@ def read(path: str, options: dict[str, Any], progress: Progress | None) -> Mesh 
     meshes = [Mesh(**piece) for piece in pieces]
     empty = Mesh(np.empty((0, 3)), np.empty((0, 3), np.int32))
     return (meshes or [empty])[0] if options["merge"] else meshes
+
+
+def times(path: str, options: dict[str, Any]) -> tuple[list[float], str, str]:
+    """Returns the times of the steps, their unit and calendar."""
+    return _core.times(path, options)
+
+
+def resample_series(path: str, options: dict[str, Any], progress: Progress | None) -> dict[str, Any]:
+    """Returns the grid, the steps and the arrays of time steps on it."""
+    found = _core.resample_series(path, options, progress)
+    finish(progress)
+    warn(found["warnings"])
+    return found
 
 
 def write(mesh: Any, path: str, options: dict[str, Any], progress: Progress | None) -> None:

@@ -406,15 +406,19 @@ class vtkPartitionedUnstructuredReader(Filter):
     PROPERTIES = {
         "FileName": "", "Bounds": (1.0, 0.0, 1.0, 0.0, 1.0, 0.0), "StrictBounds": False, "BorrowerMode": 0,
         "MergePieces": True,
-        "Tiling": "grid:4x4", "MemoryLimit": 2 * _GIGABYTE,
+        "Tiling": "grid:4x4", "MemoryLimit": 2 * _GIGABYTE, "Wrap": False,
     }
     LIMITS = {"BorrowerMode": (0, 1), "MemoryLimit": (1, None)}
+    LIST = "ValuesFileName"
     OUTPUTS = ("vtkDataObject",)
     SELECTIONS = True
 
+    def _options(self) -> dict[str, Any]:
+        return {**options_of(self, READ), "values": self.texts, "wrap": self.value("Wrap")}
+
     def CanReadFile(self, path: str) -> int:
         try:
-            _core.array_names(path, self.value("Tiling"), self.value("MemoryLimit"))
+            _core.array_names(path, self._options())
         except RuntimeError:
             return 0
         return 1
@@ -430,7 +434,7 @@ class vtkPartitionedUnstructuredReader(Filter):
         return self.guarded(self._find_arrays)
 
     def _find_arrays(self) -> None:
-        known = _core.array_names(self.value("FileName"), self.value("Tiling"), self.value("MemoryLimit"))
+        known = _core.array_names(self.value("FileName"), self._options())
         for selection, names in zip((self.GetPointDataArraySelection(), self.GetCellDataArraySelection()), known):
             for name in names:
                 selection.AddArray(name)
@@ -439,7 +443,7 @@ class vtkPartitionedUnstructuredReader(Filter):
         chosen = [[s.GetArrayName(i) for i in range(s.GetNumberOfArrays()) if s.GetArraySetting(i)]
                   for s in (self.GetPointDataArraySelection(), self.GetCellDataArraySelection())]
         options = {
-            **options_of(self, READ), "bounds": list(self.value("Bounds")), "strict_bounds": self.value("StrictBounds"),
+            **self._options(), "bounds": list(self.value("Bounds")), "strict_bounds": self.value("StrictBounds"),
             "borrowed": self.value("BorrowerMode") == 1, "time": None, "point_arrays": chosen[0],
             "cell_arrays": chosen[1],
         }

@@ -30,6 +30,7 @@ NAMES = ([3, 1.5, {}, {"f": 1}, [None], [["f"]], [1], True, b"f"], [])
 RETURN_TYPE = (TEXT[0][1:], ["numpy", ""])
 PATH = ([None, 3, 1.5, {}, True], ["a\0b"])
 PATH_OR_NONE = (PATH[0][1:], PATH[1])
+PATHS = (PATH[0] + [[None], {"a": 1}], PATH[1] + [["a\0b"]])
 DATA = ([None, "text", 3, {}, [], np.zeros((3, 3)), vtkTable(), vtkPolyData], [])
 
 
@@ -104,7 +105,15 @@ TABLE = {
               "threads": THREADS, "progress_bar": FLAG},
     "volume": {"before": DATA, "after": DATA, "bounds": (BOUNDS[0], BOUNDS[1] + [(0, 0, 0, 1), (1, 0, 0, 1)]),
                "threads": THREADS, "progress_bar": FLAG},
-    "read": {"path": PATH, "bounds": OPEN_BOUNDS, "time": NUMBER, "point_arrays": NAMES, "cell_arrays": NAMES,
+    "resample_series": {
+        "path": PATH, "bounds": (BOUNDS[0], BOUNDS[1]), "dimensions": COUNTS,
+        "spacing": ([None, "1", True, [True, 1.0]], [NAN, INF, -0.5, 0, [1.0], [1.0, 0.0], [1.0] * 3]),
+        "step": ([None, 1.5, True, [1], b"all"], [-1, "first", "0:1:0", "-1", " 1", "1:2:3:4"]), "arrays": NAMES,
+        "reduce": NAMES, "with_steps": (FLAG[0], [True]), "waterline": TEXT, "no_data": NUMBER, "values": PATHS, "wrap": FLAG,
+        "crs": TEXT, "return_type": (TEXT[0], ["numpy", ""]), "threads": THREADS, "progress_bar": FLAG},
+    "times": {"path": PATH, "values": PATHS, "wrap": FLAG},
+    "read": {"path": PATH, "bounds": OPEN_BOUNDS, "time": NUMBER, "values": PATHS, "wrap": FLAG, "point_arrays": NAMES,
+             "cell_arrays": NAMES,
              "borrowed": FLAG, "merge": FLAG, "tiling": TEXT, "memory_limit": BYTES, "return_type": RETURN_TYPE,
              "progress_bar": FLAG},
     "write": {"mesh": ([None, 3, {}, [], np.zeros((3, 3)), vtkPolyData], ["a\0b"]), "path": PATH, "tiling": TEXT,
@@ -149,6 +158,7 @@ class Arguments(unittest.TestCase):
             "as_array": {"data": self.mesh, "name": "f"}, "check": {"points": POINTS, "triangles": tipp.delaunay(POINTS)},
             "mesh": {"points": POINTS}, "triangulate": {"tri": {"vertices": POINTS}},
             "griddata": {"points": POINTS, "values": POINTS[:, 0], "xi": POINTS},
+            "resample_series": {"path": self.stored, "return_type": "tipp"}, "times": {"path": self.stored},
         }[function]
 
     def test_every_argument_of_every_function_is_in_the_table(self):

@@ -2,13 +2,14 @@
 """The arguments of the package's functions: checks, the properties of VTK classes with their values, and progress."""
 from __future__ import annotations
 
+import contextlib
 import math
 import numbers
 import operator
 import os
 import re
 import sys
-from typing import Any, Callable, Iterable, Mapping, Union
+from typing import Any, Callable, Iterable, Iterator, Mapping, Union
 
 import numpy as np
 
@@ -154,6 +155,23 @@ def path(value: Any, name: str) -> str:
     return result
 
 
+def paths(value: Any, name: str) -> list[str]:
+    """Returns a list of paths; a single one is a list of one."""
+    if isinstance(value, (str, bytes, os.PathLike)):
+        return [path(value, name)]
+    return [path(one, name) for one in a_list(value, name)]
+
+
+@contextlib.contextmanager
+def python_words() -> Iterator[None]:
+    """In messages of a RuntimeError, options of the command line become arguments."""
+    try:
+        yield
+    except RuntimeError as error:
+        message = str(error).replace("give --wrap", "give wrap=True")
+        raise type(error)(re.sub(r"--([a-z]+(-[a-z]+)*)", lambda option: option[1].replace("-", "_"), message)) from None
+
+
 def are_files(points: Any) -> bool:
     """Returns whether points are given as the name or names of files."""
     first = next(iter(points), None) if isinstance(points, (list, tuple)) else points
@@ -212,6 +230,8 @@ MESHING = {"min_angle": "MinimumAngle", "max_area": "MaximumArea", "shortest_edg
            "memory": "MemoryLimit", "scratch": "ScratchFolder", "threads": "NumberOfThreads"}
 QUERY = {"memory": "MemoryLimit", "step": "Step", "threads": "NumberOfThreads"}
 READ = {"merge": "MergePieces", "tiling": "Tiling", "memory_limit": "MemoryLimit"}
+SERIES = {"dimensions": "SamplingDimensions", "spacing": "Delta", "step": "Steps", "with_steps": "WithSteps",
+          "waterline": "Waterline", "crs": "ReferenceSystem", "threads": "NumberOfThreads"}
 WRITE = {"tiling": "Tiling", "duplicate_borrowers": "DuplicateBorrowers", "memory_limit": "MemoryLimit",
          "threads": "NumberOfThreads"}
 

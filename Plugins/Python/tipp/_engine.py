@@ -12,12 +12,13 @@ import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkDataArray, vtkDoubleArray, vtkIdTypeArray, vtkStringArray
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkCellTypes, vtkGenericCell, vtkPointData, vtkPolyData
+from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
 
 from . import _arguments as check
 from ._arguments import (
-    array_of, DELAUNAY_2D, DELAUNAY_3D, DELAUNAY_FILE, DEM, MESHING, Progress, QUERY, READ, set_properties, TRIANGULATION,
-    WRITE)
+    array_of, DELAUNAY_2D, DELAUNAY_3D, DELAUNAY_FILE, DEM, MESHING, Progress, QUERY, READ, SERIES, set_properties,
+    TRIANGULATION, WRITE)
 from ._data import as_array, Mesh
 from ._constraints import Constraints, constraints_of
 from ._results import in_vtk
@@ -28,7 +29,7 @@ from ._vtk import (
     xyz_of)
 from .vtkTIPPFilters import (
     vtkPartitionedMeshQuery, vtkRangeResampleFilter, vtkTIPPCutFill, vtkTIPPDelaunay2D, vtkTIPPDelaunay3D,
-    vtkTIPPOutOfCoreDelaunay2D, vtkTIPPPointsToImage, vtkTIPPRefine2D, vtkTIPPRemap)
+    vtkTIPPOutOfCoreDelaunay2D, vtkTIPPPointsToImage, vtkTIPPRefine2D, vtkTIPPRemap, vtkTIPPResampleSeries)
 from .vtkTIPPIO import vtkPartitionedUnstructuredReader, vtkPartitionedUnstructuredWriter, vtkTIPPPointReader
 
 if TYPE_CHECKING:
@@ -480,6 +481,7 @@ def read(path: str, options: dict[str, Any], progress: Progress | None) -> Any:
         reader.SetBounds(*options["bounds"])
         reader.StrictBoundsOn()
     reader.SetBorrowerMode(reader.OWNED_AND_BORROWED if options["borrowed"] else reader.OWNED)
+    _set_model(reader, options)
     set_properties(reader, READ, options)
     run(reader, call=reader.UpdateInformation)
     _keep_only(reader.GetPointDataArraySelection(), options["point_arrays"], "point")
@@ -491,6 +493,62 @@ def read(path: str, options: dict[str, Any], progress: Progress | None) -> Any:
     run(reader, progress, lambda: reader.UpdatePiece(rank, size, 0) if time is None
         else reader.UpdateTimeStep(time, rank, size, 0))
     return reader.GetOutputDataObject(0)
+
+
+def times(path: str, options: dict[str, Any]) -> tuple[np.ndarray, str, str]:
+    """Returns the times of the steps, their unit and calendar."""
+    reader = vtkPartitionedUnstructuredReader()
+    reader.SetFileName(path)
+    _set_model(reader, options)
+    run(reader, call=reader.UpdateInformation)
+    key = vtkStreamingDemandDrivenPipeline.TIME_STEPS()
+    information = reader.GetOutputInformation(0)
+    found = information.Get(key) if information.Has(key) else ()
+    return np.array(found, np.float64), reader.GetTimeUnits() or "", reader.GetCalendar() or ""
+
+
+def _set_model(algorithm: Any, options: dict[str, Any]) -> None:
+    """Sets how the output of a model is read."""
+    for values in options["values"]:
+        algorithm.AddValuesFileName(values)
+    algorithm.SetWrap(options["wrap"])
+
+
+def resample_series(path: str, options: dict[str, Any], progress: Progress | None) -> dict[str, Any]:
+    """Returns the grid, the steps and the arrays of time steps on it."""
+    _require_one_rank("resample_series")
+    algorithm = vtkTIPPResampleSeries()
+    algorithm.SetFileName(path)
+    _set_model(algorithm, options)
+    if options["bounds"] is not None:
+        algorithm.UseBoundsOn()
+        algorithm.SetBounds(*options["bounds"])
+    set_properties(algorithm, SERIES, options)
+    for name in options["arrays"]:
+        algorithm.AddArray(name)
+    for name in options["reduce"]:
+        algorithm.AddReduction(name)
+    if options["no_data"] is not None:
+        algorithm.UseNoDataValueOn()
+        algorithm.SetNoDataValue(options["no_data"])
+    run(algorithm, progress)
+    table = algorithm.GetOutput()
+    fields = table.GetFieldData()
+
+    def numbers(name: str) -> list[Any]:
+        return numpy_of(fields.GetArray(name)).tolist() if fields.GetArray(name).GetNumberOfTuples() else []
+
+    def texts(name: str) -> list[str]:
+        array = fields.GetAbstractArray(name)
+        return [array.GetValue(i) for i in range(array.GetNumberOfValues())]
+
+    described = zip(texts("LongNames"), texts("StandardNames"), texts("Units"), numbers("Varies"))
+    arrays = [(table.GetColumnName(i), np.ascontiguousarray(numpy_of(table.GetColumn(i)).T),
+               {"long_name": long_name, "standard_name": standard_name, "units": units, "varies": bool(varies)})
+              for i, (long_name, standard_name, units, varies) in enumerate(described)]
+    return {"origin": numbers("Origin"), "spacing": numbers("Spacing"), "dimensions": numbers("Dimensions"),
+            "steps": numbers("Steps"), "times": numbers("Times"), "time_units": texts("TimeUnits")[0],
+            "calendar": texts("Calendar")[0], "crs": texts("ReferenceSystem")[0], "arrays": arrays}
 
 
 def _keep_only(selection: Any, wanted: list[str] | None, what: str) -> None:

@@ -21,6 +21,8 @@ def read(
     bounds: BoundsLike | None = None,
     *,
     time: float | None = None,
+    values: str | os.PathLike[str] | Iterable[Any] = (),
+    wrap: bool = False,
     point_arrays: str | Iterable[str] | None = None,
     cell_arrays: str | Iterable[str] | None = None,
     borrowed: bool = False,
@@ -47,6 +49,13 @@ def read(
         everything.
     time
         The time at which to read arrays that vary in time: the last step that is not after it. None: the first step.
+        tipp.times() lists the times.
+    values
+        Of the output of a model: the name or the names of more files, with values at the mesh's nodes or cells, such as
+        fort.63 beside fort.14.
+    wrap
+        Of the output of a model in degrees: whether cells that cross the meridian at which longitudes jump are on either
+        side of it. False: such cells are an error.
     point_arrays, cell_arrays
         The name or the names of the arrays to read. None: all.
     borrowed
@@ -91,11 +100,15 @@ def read(
         "tiling": check.text(tiling, "tiling"),
         "memory_limit": check.memory(memory_limit, "memory_limit"),
         "time": None if time is None else check.number(time, "time"),
+        "values": check.paths(values, "values"),
+        "wrap": check.flag(wrap, "wrap"),
         "point_arrays": None if point_arrays is None else check.names(point_arrays, "point_arrays"),
         "cell_arrays": None if cell_arrays is None else check.names(cell_arrays, "cell_arrays"),
     }
     kind = kind_of(return_type, None)
-    found = _engine.read(check.path(path, "path"), options, progress_of(progress_bar))
+    source = check.path(path, "path")
+    with check.python_words():
+        found = _engine.read(source, options, progress_of(progress_bar))
     return result_of(found, kind, as_grid=True)
 
 
