@@ -18,6 +18,7 @@
 #include "Partitioning/MeshTiling.h"
 #include "Points/ReadPoints.h"
 #include "Predicates/Geometry.h"
+#include "Ranks/Communicator.h"
 #include "Reading/PieceSource.h"
 #include "Series/MeshSeries.h"
 
@@ -413,11 +414,17 @@ Box3 boundsOf(const std::string& path, const PartitionedMesh& mesh)
 /// Prints what a flat or partitioned mesh has.
 void describeMesh(const std::string& path)
 {
-  const std::unique_ptr<PieceSource> source = openPieceSource(path);
+  const bool isPartitioned = isPartitionedMesh(path);
+  const std::unique_ptr<PieceSource> source =
+    openPieceSource(path, { TilingChoice::require("grid:1x1") });
+  if (!isPartitioned) // its bounds are not known before
+  {
+    Communicator alone(nullptr);
+    source->prepare(alone);
+  }
   const PartitionedMesh& mesh = source->mesh();
   fmt::print("{}: {}, {} points\n", shownPath(path),
-    isPartitionedMesh(path) ? counted(std::int64_t(mesh.Pieces.size()), "piece", "pieces")
-                            : "flat mesh",
+    isPartitioned ? counted(std::int64_t(mesh.Pieces.size()), "piece", "pieces") : "flat mesh",
     mesh.Points);
   fmt::print("{:<11} {}\n", mesh.CellSize == 3 ? "triangles" : "tetrahedra", mesh.Cells);
   const Box3 bounds = boundsOf(path, mesh);

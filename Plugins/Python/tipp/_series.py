@@ -212,7 +212,7 @@ def resample_series(
     >>> maps = tipp.resample_series("surge.nc", spacing=200, step="::12")
     """
     kind = check.choice(return_type, "return_type", {"xarray": 0, "tipp": 1})
-    options = {
+    options: dict[str, Any] = {
         "bounds": None if bounds is None else bounds_of(bounds, "bounds")[:4],
         "dimensions": (256, 0) if dimensions is None else tuple(check.several(dimensions, "dimensions", 2, check.whole)),
         "spacing": (0.0, 0.0) if spacing is None else _spacing(spacing),

@@ -192,7 +192,7 @@ TEST_F(TippDescribed, IsDescribedByInfoAsTheFile)
   {
     const Outcome outcome = runTipp(this->Folder, { "info", mesh });
     ASSERT_EQ(0, outcome.ExitCode) << outcome.Err;
-    for (const char* line : { "triangles   2\n",
+    for (const char* line : { "triangles   2\n", "x           0 to 1\n", "y           0 to 1\n",
            "steps       4, 0 to 240 seconds since 2018-09-01 00:00:00, calendar gregorian\n",
            "level       at points, varies, in m: water level\n", "depth       at points\n",
            "CRS         PROJCS[" })
