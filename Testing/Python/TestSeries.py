@@ -91,7 +91,7 @@ class Maps(Series):
 
     def test_are_reduced(self):
         maps = self.maps(reduce=["max", "above:5"])
-        self.assertEqual(["level_max", "level_above_5"], list(maps.arrays))
+        self.assertEqual(["level_max", "level_time_above_5"], list(maps.arrays))
         self.assertEqual(20.25, maps.arrays["level_max"][0, 1])
         self.assertEqual("m", maps.attributes["level_max"]["units"])
 
