@@ -58,7 +58,7 @@ environment pyvista 'vtk>=9.7,<9.8' pyvista shapely geopandas laspy meshio polar
 runs pyvista Testing/Wheel/TestPyVista.py Testing/Wheel/TestFilters.py Testing/Python/TestArguments.py Testing/Python/TestArrays.py \
   Testing/Python/TestBounds.py Testing/Python/TestCheck.py Testing/Python/TestConstraints.py Testing/Python/TestDelaunay3D.py \
   Testing/Python/TestInputs.py Testing/Python/TestInterrupt.py Testing/Python/TestMesh.py Testing/Python/TestPackage.py \
-  Testing/Python/TestOverlap.py Testing/Python/TestPointsToImage.py Testing/Python/TestResults.py Testing/Python/TestSwitches.py \
+  Testing/Python/TestOverlap.py Testing/Python/TestPointsToImage.py Testing/Python/TestResults.py Testing/Python/TestSeries.py Testing/Python/TestSwitches.py \
   Testing/Wheel/TestVtkFiles.py Testing/Wheel/uses_everything.py
 "$work/pyvista/bin/mypy" --strict --cache-dir "$work/mypy" Testing/Wheel/uses_everything.py
 "$work/pyvista/bin/pyright" --pythonpath "$work/pyvista/bin/python" Testing/Wheel/uses_everything.py

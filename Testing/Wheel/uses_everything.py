@@ -73,6 +73,8 @@ def store(mesh: tipp.Mesh, folder: pathlib.Path) -> None:
     tipp.write(tipp.Mesh(mesh.points, mesh.cells, mesh.point_data), path, tiling="grid:2x2", memory_limit="64M")
     part = tipp.read(path, bounds=(0.2, 0.6, 0.3, 0.7), point_arrays="height")
     assert isinstance(part, tipp.Mesh) and 0 < len(part.cells) < len(mesh.cells)
+    maps = tipp.resample_series(path, PART, (20, 30), arrays="height", return_type="tipp")
+    assert isinstance(maps, tipp.Maps) and maps.arrays["height"].shape == (30, 20) and not tipp.times(path).values.size
 
 
 def query(mesh: tipp.Mesh) -> None:

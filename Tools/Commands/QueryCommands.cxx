@@ -3,6 +3,7 @@
 #include "Commands/PointArguments.h"
 #include "Commands/QuerySeries.h"
 #include "Commands/Report.h"
+#include "Commands/SeriesReport.h"
 #include "Commands/VtkFiles.h"
 #include "Console/Process.h"
 #include "Files/Formats.h"
@@ -117,7 +118,8 @@ std::unique_ptr<ResidentMesh> openQueryMesh(const QueryMeshArguments& arguments)
   }
 }
 
-/// Says which time step is evaluated where several are stored and none was asked for.
+/// Says which time step is evaluated where several are stored and none was asked for, and that
+/// missing values are numbers.
 void noteStep(const QueryMeshArguments& arguments, const ResidentMesh& mesh)
 {
   const std::vector<double>& times = mesh.mesh().Times;
@@ -129,6 +131,9 @@ void noteStep(const QueryMeshArguments& arguments, const ResidentMesh& mesh)
       "give --step.\n",
       arguments.Path, times.size(), times.front(), units.empty() ? "" : " " + units);
   }
+  const std::string step = arguments.Step.empty() ? "0" : arguments.Step;
+  warnOfMissingValues(arguments.Path, mesh.mesh().Description,
+    [&](double) { return "for values at points without it, give --step " + step + ":" + step; });
 }
 
 /// Runs a collective function on all ranks, until it returns or Ctrl-C is pressed. Prints the

@@ -2,8 +2,13 @@
 #include "Commands/Commands.h"
 #include "Commands/PointArguments.h"
 #include "Commands/ResampleArguments.h"
+#include "Commands/SeriesReport.h"
 #include "Console/Process.h"
 #include "Files/Formats.h"
+#include "Files/IOError.h"
+#include "Files/TextFile.h"
+#include "Flat/FlatMesh.h"
+#include "Partitioned/PartitionedMesh.h"
 #include "Series/StepSelection.h"
 
 #include <CLI/CLI.hpp>
@@ -116,6 +121,28 @@ void addOptions(CLI::App& command, ResampleArguments& arguments)
     "The memory limit for the part of a partitioned mesh that is in memory");
 }
 
+/// Warns of missing values in a stored mesh that are numbers, such as -99999.
+void warnOfNumbers(const ResampleArguments& arguments)
+{
+  const std::string& path = arguments.Input;
+  const auto advice = [](double missing) { return "give --no-data=" + shortText(missing); };
+  try
+  {
+    if (isPartitionedMesh(path))
+    {
+      warnOfMissingValues(path, openPartitionedMesh(path).Description, advice);
+    }
+    else if (isFlatMesh(path))
+    {
+      warnOfMissingValues(path, openFlatMesh(path).Description, advice);
+    }
+  }
+  catch (const IOError&)
+  {
+    return; // the run reports it
+  }
+}
+
 int run(ResampleArguments& arguments)
 {
   if (arguments.Resolution > 0)
@@ -144,6 +171,10 @@ int run(ResampleArguments& arguments)
   }
   refuseIf(arguments.OutputIs == Opener::Npy && arguments.Arrays.size() != 1, "--arrays",
     "must name one array for an .npy file");
+  if (!arguments.NoData && !isIdleRank())
+  {
+    warnOfNumbers(arguments);
+  }
   return runResample(arguments);
 }
 

@@ -2,6 +2,7 @@
 #include "Commands/SeriesReport.h"
 
 #include "Files/IOError.h"
+#include "Files/MeshDescription.h"
 #include "Files/TemporaryPaths.h"
 #include "Predicates/Geometry.h"
 #include "Series/MeshSeries.h"
@@ -56,6 +57,25 @@ void warnOfVariablesLeftOut(const std::string& path, const std::vector<SeriesLef
   for (const SeriesLeftOut& left : leftOut)
   {
     fmt::print(stderr, "tipp: warning: {}: {} {}.\n", shownPath(path), left.Name, left.Reason);
+  }
+}
+
+void warnOfMissingValues(const std::string& path, const MeshDescription& description,
+  const std::function<std::string(double missing)>& advice)
+{
+  for (const auto* const arrays : { &description.PointData, &description.CellData })
+  {
+    for (const auto& [name, array] : *arrays)
+    {
+      if (array.Missing)
+      {
+        fmt::print(stderr,
+          "tipp: warning: {}: '{}' has {} where it has no value, which counts as a number here; "
+          "{}.\n",
+          shownPath(path), shownText(name), *array.Missing, advice(*array.Missing));
+        return;
+      }
+    }
   }
 }
 

@@ -2,6 +2,7 @@
 #ifndef tippSeriesReport_h
 #define tippSeriesReport_h
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@ namespace tipp
 {
 
 class MeshSeries;
+struct MeshDescription;
 struct SeriesLeftOut;
 
 /// Warns of each variable that the output of a model in a file has and its series does not offer,
@@ -23,6 +25,11 @@ void printTimes(
 /// Prints an array: where its values are, whether they vary, and what they are.
 void printArray(const std::string& name, const char* where, bool varies, const std::string& units,
   const std::string& longName);
+
+/// Warns of an array with a value that stands for none, which is a number like others where single
+/// steps are evaluated. `advice` says what to do.
+void warnOfMissingValues(const std::string& path, const MeshDescription& description,
+  const std::function<std::string(double missing)>& advice);
 
 /// Prints the mesh, its variables, the time steps, and what is left out.
 void describeSeries(MeshSeries& series);

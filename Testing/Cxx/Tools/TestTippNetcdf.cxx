@@ -252,6 +252,31 @@ TEST_F(TippDescribed, KeepsTheDescriptionFromPiecesToAFolder)
     contentOf(this->Folder.path("again.tipp/index.json")));
 }
 
+TEST_F(TippDescribed, IsWarnedOfWhereMissingValuesAreNumbers)
+{
+  this->make({ "partition", "surge", "-o", "surge.tipp", "--tiling", "grid:1x2" });
+  const Words one = { "resample", "surge.tipp", "-o", "a.npy", "--arrays", "level", "--step", "3",
+    "--dims", "5", "5" };
+  const Outcome warned = runTipp(this->Folder, one);
+  EXPECT_EQ(0, warned.ExitCode);
+  EXPECT_NE(std::string::npos,
+    warned.Err.find("surge.tipp: 'level' has -99999 where it has no value, which counts as a "
+                    "number here; give --no-data=-99999.\n"))
+    << warned.Err;
+  Words told = one;
+  told.emplace_back("--no-data=-99999");
+  this->make(told);
+  this->Folder.file("points.csv", "x,y\n0.75,0.75\n");
+  const Words query = { "query", "points.csv", "surge.tipp", "-o", "points.out.csv", "--step" };
+  Words number = query;
+  number.emplace_back("3");
+  EXPECT_NE(std::string::npos,
+    runTipp(this->Folder, number).Err.find("for values at points without it, give --step 3:3.\n"));
+  Words list = query;
+  list.emplace_back("3:3");
+  this->make(list);
+}
+
 TEST_F(TippDescribed, NamesTheUnitOfTimesAtStations)
 {
   this->makeFolderAndPieces();
