@@ -61,8 +61,8 @@ class Maps:
         xarray = imported("xarray", "Maps.to_xarray()")
         taken = [name for name in self.arrays if name in _COORDINATES]
         if taken:
-            raise RuntimeError(f"the mesh has an array called '{taken[0]}', which is the name of a coordinate: name others with "
-                               "arrays.")
+            raise RuntimeError(f"the mesh has an array called '{taken[0]}', which is the name of a coordinate: name others "
+                               "with arrays.")
         west, south = (float(axis[0]) - width / 2 for axis, width in zip((self.x, self.y), self.spacing))
         reference = {"GeoTransform": " ".join(repr(v) for v in (west, self.spacing[0], 0.0, south, 0.0, self.spacing[1]))}
         if self.crs:
