@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Files/Checksum.h"
 
+#include "Files/InputFile.h"
+
 // Compiled into this file, so that no library is needed.
 #define XXH_INLINE_ALL
 #include <xxhash.h>
@@ -54,6 +56,15 @@ std::uint64_t Checksum::finish()
   const std::uint64_t value = XXH3_64bits_digest(&this->Progress->Xxh3);
   XXH3_64bits_reset(&this->Progress->Xxh3);
   return value;
+}
+
+std::uint64_t fileChecksum(const std::string& path)
+{
+  const InputFile file(path);
+  Checksum sum;
+  file.readBlocks(
+    0, file.size(), [&sum](const char* data, std::size_t bytes) { sum.add(data, bytes); });
+  return sum.finish();
 }
 
 std::string checksumText(std::uint64_t checksum)

@@ -31,6 +31,9 @@ private:
   std::unique_ptr<State> Progress;
 };
 
+/// Returns the checksum of a file's bytes. Throws IOError.
+VTKTIPPIO_EXPORT std::uint64_t fileChecksum(const std::string& path);
+
 /// Converts to 16 hexadecimal digits in lower case.
 VTKTIPPIO_EXPORT std::string checksumText(std::uint64_t checksum);
 /// The inverse of checksumText(). Returns false if the text is no checksum.

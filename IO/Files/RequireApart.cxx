@@ -67,7 +67,8 @@ std::vector<std::string> filesOfInput(const std::string& path)
   if (!fs::is_directory(path, failure))
   {
     const std::string name = fs::path(path).filename().string();
-    const bool isIndex = name == "index.json" || name == "mesh.pvtu";
+    const bool isIndex = name == "index.json" || name == "mesh.pvtu" ||
+      (name == "mesh.vtkhdf" && fs::exists(fs::path(path).replace_filename("tables.bin"), failure));
     if (isIndex)
     {
       files = filesOfInput(fs::absolute(path).parent_path().string());

@@ -166,7 +166,7 @@ bool isOurs(const std::string& path)
   static const std::regex ours(
     "\\.(points|plan|piece|ranks)(\\.[^/]*)?"
     "|([^/]+/)+\\.(owners|points|cells|shared|borrowers|borrowed|ghosts)\\b.*"
-    "|([^/]+/)+(index\\.json|tables\\.bin|mesh\\.pvtu)"
+    "|([^/]+/)+(index\\.json|tables\\.bin|mesh\\.pvtu|mesh\\.vtkhdf)"
     "|([^/]+/)+pieces/[0-9]{6,}\\.vtu(\\.next)?"
     "|([^/]+/)+[^/]+\\.npy"
     "|([^/]+/)*\\.[^/]+\\.tmp"

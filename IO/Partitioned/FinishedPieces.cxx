@@ -4,9 +4,11 @@
 #include "Arrays/FindNeighbors.h"
 #include "Files/Checksum.h"
 #include "Files/IOError.h"
+#include "Files/InputFile.h"
 #include "Files/TextFile.h"
 #include "Parallel/ParallelFor.h"
 #include "Partitioned/PieceFile.h"
+#include "Partitioned/VirtualHdf.h"
 
 #include <algorithm>
 #include <cstring>
@@ -64,15 +66,19 @@ std::vector<std::string> filesOf(const std::string& path)
   PartitionedMesh mesh;
   mesh.Path = path;
   const std::string index = mesh.indexPath();
-  const std::size_t pieces = parseIndex(readTextFile(index), index).Pieces.size();
+  const PartitionedMesh parsed = parseIndex(readTextFile(index), index);
   std::vector<std::string> files;
-  for (std::size_t piece = 0; piece < pieces; ++piece)
+  for (std::size_t piece = 0; piece < parsed.Pieces.size(); ++piece)
   {
     files.push_back(pieceName(piece));
   }
   for (const std::string& file : { index, mesh.tablesPath(), mesh.pvtuPath() })
   {
     files.push_back(file.substr(path.size() + 1));
+  }
+  if (parsed.VtkHdfBytes > 0)
+  {
+    files.push_back(mesh.vtkHdfPath().substr(path.size() + 1));
   }
   return files;
 }
@@ -98,6 +104,19 @@ void addBorrowed(std::vector<FinishedPiece>& pieces, bool duplicated)
       }
     }
   }
+}
+
+/// Writes mesh.pvtu and mesh.vtkhdf. Returns their bytes.
+std::uint64_t writeViews(PartitionedMesh& mesh)
+{
+  const std::string pvtu = pvtuText(mesh);
+  writeWholeFile(mesh.pvtuPath(), pvtu);
+  mesh.PvtuBytes = pvtu.size();
+  mesh.PvtuChecksum = checksumOf(pvtu.data(), pvtu.size());
+  writeVirtualHdf(mesh);
+  mesh.VtkHdfBytes = InputFile(mesh.vtkHdfPath()).size();
+  mesh.VtkHdfChecksum = fileChecksum(mesh.vtkHdfPath());
+  return mesh.PvtuBytes + mesh.VtkHdfBytes;
 }
 
 PartitionedMesh openMesh(const std::string& path, std::uint64_t fingerprint)
@@ -337,16 +356,14 @@ PublishedMesh publishPieces(PartitionedMesh& mesh, std::vector<FinishedPiece>& p
     mesh.Pieces[i] = summary;
     bytes += summary.FileBytes;
   }
-  const std::string pvtu = pvtuText(mesh);
-  const std::string index = indexText(mesh, pvtu);
   writeWholeFile(mesh.tablesPath(), tables);
-  writeWholeFile(mesh.pvtuPath(), pvtu);
+  bytes += tables.size() + writeViews(mesh);
+  const std::string index = indexText(mesh);
   syncToDisk(mesh.Path + "/pieces");
   syncToDisk(mesh.Path);
   writeWholeFile(mesh.indexPath(), index);
   openPartitionedMesh(mesh.Path);
-  return { bytes + tables.size() + pvtu.size() + index.size(),
-    checksumOf(index.data(), index.size()) };
+  return { bytes + index.size(), checksumOf(index.data(), index.size()) };
 }
 
 bool holdsMesh(const std::string& path, std::uint64_t fingerprint)
@@ -365,7 +382,7 @@ bool holdsMesh(const std::string& path, std::uint64_t fingerprint)
 void verifyMesh(const std::string& path, std::uint64_t fingerprint, int threads)
 {
   const PartitionedMesh mesh = openMesh(path, fingerprint);
-  verifyPvtu(mesh);
+  verifyViews(mesh);
   parallelFor(std::int64_t(mesh.Pieces.size()), threads,
     [&](std::int64_t number) { PieceFile(mesh, std::size_t(number)).verifyAll(); });
 }

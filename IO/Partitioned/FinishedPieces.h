@@ -147,9 +147,9 @@ struct PublishedMesh
   std::uint64_t Fingerprint = 0; ///< checksum of the index, which identifies the mesh
 };
 
-/// Writes tables, .pvtu and, last, the index into the mesh's folder, and completes mesh.Pieces. The
-/// pieces' files must have been synced. Throws IOError if writing fails or one of them does not
-/// have its expected size.
+/// Writes tables, .pvtu, .vtkhdf and, last, the index into the mesh's folder, and completes
+/// mesh.Pieces. The pieces' files must have been synced. Throws IOError if writing fails or one of
+/// them does not have its expected size.
 VTKTIPPIO_EXPORT PublishedMesh publishPieces(
   PartitionedMesh& mesh, std::vector<FinishedPiece>& pieces);
 

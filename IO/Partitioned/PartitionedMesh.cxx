@@ -259,6 +259,7 @@ Json parseJson(const std::string& text, const std::string& path, std::uint64_t& 
 constexpr const char* indexName = "index.json";
 constexpr const char* tablesName = "tables.bin";
 constexpr const char* pvtuName = "mesh.pvtu";
+constexpr const char* vtkHdfName = "mesh.vtkhdf";
 
 std::string indexOf(const std::string& path)
 {
@@ -299,7 +300,7 @@ void requireSize(const std::string& path, std::uint64_t bytes)
 
 } // namespace
 
-std::string indexText(const PartitionedMesh& mesh, const std::string& pvtu)
+std::string indexText(const PartitionedMesh& mesh)
 {
   OrderedJson arrays = OrderedJson::array();
   std::transform(mesh.Arrays.begin(), mesh.Arrays.end(), std::back_inserter(arrays), packArray);
@@ -319,8 +320,10 @@ std::string indexText(const PartitionedMesh& mesh, const std::string& pvtu)
     { "tables_bytes", bytesOfTables(mesh) },
     { "arrays", std::move(arrays) },
     { "pieces", std::move(pieces) },
-    { "pvtu_bytes", pvtu.size() },
-    { "pvtu_xxh3", checksumText(checksumOf(pvtu.data(), pvtu.size())) },
+    { "pvtu_bytes", mesh.PvtuBytes },
+    { "pvtu_xxh3", checksumText(mesh.PvtuChecksum) },
+    { "vtkhdf_bytes", mesh.VtkHdfBytes },
+    { "vtkhdf_xxh3", checksumText(mesh.VtkHdfChecksum) },
   };
   if (!mesh.Description.isEmpty())
   {
@@ -393,6 +396,12 @@ PartitionedMesh parseIndex(const std::string& text, const std::string& path)
   mesh.PvtuBytes = std::uint64_t(fields.integer("pvtu_bytes", 0, most));
   fields.require(
     parseChecksum(fields.text("pvtu_xxh3"), mesh.PvtuChecksum), "has a wrong pvtu_xxh3");
+  if (json.contains("vtkhdf_bytes"))
+  {
+    mesh.VtkHdfBytes = std::uint64_t(fields.integer("vtkhdf_bytes", 1, most));
+    fields.require(
+      parseChecksum(fields.text("vtkhdf_xxh3"), mesh.VtkHdfChecksum), "has a wrong vtkhdf_xxh3");
+  }
   return mesh;
 }
 
@@ -422,6 +431,11 @@ std::string PartitionedMesh::pvtuPath() const
   return this->Path + "/" + pvtuName;
 }
 
+std::string PartitionedMesh::vtkHdfPath() const
+{
+  return this->Path + "/" + vtkHdfName;
+}
+
 namespace
 {
 
@@ -443,6 +457,10 @@ PartitionedMesh openIndex(const std::string& index)
   }
   requireSize(mesh.tablesPath(), tables);
   requireSize(mesh.pvtuPath(), mesh.PvtuBytes);
+  if (mesh.VtkHdfBytes > 0)
+  {
+    requireSize(mesh.vtkHdfPath(), mesh.VtkHdfBytes);
+  }
   return mesh;
 }
 
@@ -484,16 +502,23 @@ void failReplaced(const std::string& path)
   throw IOError(path, "was replaced or removed while it was read; read it again.");
 }
 
-void verifyPvtu(const PartitionedMesh& mesh)
+void verifyViews(const PartitionedMesh& mesh)
 {
-  readUnchanged(mesh,
-    [&mesh]
+  const auto verify = [](const std::string& path, std::uint64_t checksum)
+  {
+    if (fileChecksum(path) != checksum)
     {
-      const std::string text = readText(mesh.pvtuPath());
-      if (checksumOf(text.data(), text.size()) != mesh.PvtuChecksum)
+      throw IOError(
+        path, "does not have the checksum that the index gives; copy or make the mesh again.");
+    }
+  };
+  readUnchanged(mesh,
+    [&]
+    {
+      verify(mesh.pvtuPath(), mesh.PvtuChecksum);
+      if (mesh.VtkHdfBytes > 0)
       {
-        throw IOError(mesh.pvtuPath(),
-          "does not have the checksum that the index gives; copy or make the mesh again.");
+        verify(mesh.vtkHdfPath(), mesh.VtkHdfChecksum);
       }
     });
 }

@@ -89,6 +89,8 @@ struct PartitionedMesh
   std::vector<PieceSummary> Pieces;   ///< in the order of piece indices
   std::uint64_t PvtuBytes = 0;        ///< size of mesh.pvtu, once it is written
   std::uint64_t PvtuChecksum = 0;
+  std::uint64_t VtkHdfBytes = 0; ///< size of mesh.vtkhdf; 0: an older program made the mesh without
+  std::uint64_t VtkHdfChecksum = 0;
   std::uint64_t IndexChecksum = 0; ///< the one that the index names; differs between meshes
   PathState IndexState;            ///< of the index when it was opened; nothing if it was not
 
@@ -96,6 +98,7 @@ struct PartitionedMesh
   std::string tablesPath() const;
   std::string indexPath() const;
   std::string pvtuPath() const;
+  std::string vtkHdfPath() const;
 };
 
 /// Returns a piece's file name, such as "pieces/000012.vtu".
@@ -132,15 +135,16 @@ auto readUnchanged(const PartitionedMesh& mesh, const Read& read)
   }
 }
 
-/// Returns the text of index.json including its checksum; `pvtu` is the text of mesh.pvtu.
-std::string indexText(const PartitionedMesh& mesh, const std::string& pvtu);
+/// Returns the text of index.json including its checksum.
+std::string indexText(const PartitionedMesh& mesh);
 
 /// Parses such a text; `path` is the index's, for errors. Checks everything that needs no other
 /// file and throws IOError. PartitionedMesh::Path is left empty.
 VTKTIPPIO_EXPORT PartitionedMesh parseIndex(const std::string& text, const std::string& path);
 
-/// Throws IOError unless mesh.pvtu, which openPartitionedMesh() does not read, has its checksum.
-VTKTIPPIO_EXPORT void verifyPvtu(const PartitionedMesh& mesh);
+/// Throws IOError unless mesh.pvtu and mesh.vtkhdf, which openPartitionedMesh() does not read, have
+/// their checksums.
+VTKTIPPIO_EXPORT void verifyViews(const PartitionedMesh& mesh);
 
 /// Whether the path looks like a partitioned mesh or its index; opening it may still fail.
 VTKTIPPIO_EXPORT bool isPartitionedMesh(const std::string& path);

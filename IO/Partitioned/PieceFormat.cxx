@@ -254,7 +254,45 @@ std::string headerText(const PartitionedMesh& mesh, std::size_t number, const Pi
   return header;
 }
 
+/// What makes the file one of HDF5, too: its arrays without their values, each named by its index.
+/// `base`: the position of this part in the file. Before the layout has offsets, the result has the
+/// right size only.
+std::string hdfPartOf(const PartitionedMesh& mesh, const PieceSummary& piece,
+  const PieceLayout& layout, std::uint64_t base)
+{
+  HdfObjects objects;
+  std::vector<HdfLink> links;
+  for (std::size_t a = 0; a < layout.Arrays.size(); ++a)
+  {
+    const PieceArray& array = layout.Arrays[a];
+    const HdfShape shape =
+      hdfShapeOf(array, std::uint64_t(storedTuples(mesh, piece, array.ofPoints())));
+    const HdfAddress data = layout.Offsets.empty() ? 0 : layout.Offsets[a];
+    links.push_back({ hdfNameOf(a), objects.addArray(shape, data) });
+  }
+  const HdfAddress root = objects.addGroup(links);
+  std::string part = objects.take();
+  const std::string superblock = HdfObjects::superblock(base, base + layout.End, root);
+  return part.replace(0, superblock.size(), superblock);
+}
+
 } // namespace
+
+std::string hdfNameOf(std::size_t array)
+{
+  return std::to_string(array);
+}
+
+HdfShape hdfShapeOf(const PieceArray& array, std::uint64_t tuples)
+{
+  const auto components = std::uint64_t(array.Components);
+  if (array.Role == PieceRole::Connectivity)
+  {
+    return { array.Type, { tuples * components } };
+  }
+  return components == 1 ? HdfShape{ array.Type, { tuples } }
+                         : HdfShape{ array.Type, { tuples, components } };
+}
 
 std::vector<std::int64_t> PieceTable::partStarts(
   const PartitionedMesh& mesh, const PieceSummary& piece, bool ofPoints) const
@@ -423,7 +461,7 @@ PieceLayout layOutPiece(const PartitionedMesh& mesh, std::size_t number, const P
   PieceLayout layout;
   layout.Arrays = pieceArrays(mesh, piece);
   // Each array starts at a multiple of 8, relative to the appended data, after its size.
-  std::uint64_t at = 0;
+  std::uint64_t at = hdfPartOf(mesh, piece, layout, 0).size();
   for (const PieceArray& array : layout.Arrays)
   {
     at += 8;
@@ -435,15 +473,20 @@ PieceLayout layOutPiece(const PartitionedMesh& mesh, std::size_t number, const P
   }
   std::string& header = layout.Header;
   header = headerText(mesh, number, piece, layout);
-  // The data begin after the underscore, at a multiple of 8 in the file.
+  // HDF5 looks for its part of a file at these positions. It begins after the underscore.
   const std::size_t size = room ? headerText(mesh, number, *room, layout).size() : header.size();
-  header.append(size + 7 - size % 8 - header.size(), ' ');
-  header += '_';
+  std::size_t base = 512;
+  while (base < size + 1)
+  {
+    base *= 2;
+  }
+  header.append(base - 1 - header.size(), ' ');
+  header += '_' + hdfPartOf(mesh, piece, layout, base);
   for (std::uint64_t& offset : layout.Offsets)
   {
-    offset += header.size();
+    offset += base;
   }
-  layout.End += header.size();
+  layout.End += base;
   return layout;
 }
 

@@ -2,6 +2,7 @@
 #ifndef tippPieceFormat_h
 #define tippPieceFormat_h
 
+#include "Hdf/HdfObjects.h"
 #include "Partitioned/PartitionedMesh.h"
 #include "Ranks/Archive.h"
 #include "vtkTIPPIOModule.h"
@@ -45,8 +46,8 @@ struct PieceTable
   std::vector<BorrowedGroup> BorrowedPoints;         ///< sorted by owner, then group
   std::vector<BorrowedGroup> BorrowedCells;          ///< sorted by owner, then group
   std::vector<std::vector<std::uint64_t>> Checksums; ///< per array, one for each part
-  std::uint64_t HeaderBytes = 0;                     ///< size of the file's XML header
-  std::uint64_t HeaderChecksum = 0;                  ///< XXH3 of the header, 64 bits
+  std::uint64_t HeaderBytes = 0;    ///< size of the file's XML header and HDF5 part
+  std::uint64_t HeaderChecksum = 0; ///< XXH3 of both, 64 bits
 
   /// The first tuple of each part of the arrays of points, or of cells, and the end of the last.
   VTKTIPPIO_EXPORT std::vector<std::int64_t> partStarts(
@@ -123,10 +124,16 @@ VTKTIPPIO_EXPORT std::vector<PieceArray> pieceArrays(
 /// cells.
 std::int64_t storedTuples(const PartitionedMesh& mesh, const PieceSummary& piece, bool ofPoints);
 
+/// The name of an array, by its index in pieceArrays(), among the HDF5 arrays of a piece's file.
+std::string hdfNameOf(std::size_t array);
+
+/// The shape of that HDF5 array. The corners of all cells are one list.
+HdfShape hdfShapeOf(const PieceArray& array, std::uint64_t tuples);
+
 /// The offsets, in bytes, of all sections of a piece's file.
 struct PieceLayout
 {
-  std::string Header;                 ///< the XML up to the first array's size
+  std::string Header;                 ///< the XML and the HDF5 part, up to the first array's size
   std::vector<PieceArray> Arrays;     ///< in the order of the file
   std::vector<std::uint64_t> Offsets; ///< of each array's data; the 8 bytes before hold its size
   std::uint64_t End = 0;              ///< end of the last array, where the footer begins

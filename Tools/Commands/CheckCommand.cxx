@@ -347,7 +347,7 @@ InputSum readInput(const CheckArguments& arguments, ConstraintTable& table)
 CheckReport checkPartitioned(const CheckArguments& arguments)
 {
   const PartitionedMesh mesh = openPartitionedMesh(arguments.Mesh);
-  verifyPvtu(mesh);
+  verifyViews(mesh);
   CheckOptions options = arguments.Options;
   ConstraintChains chains;
   ConstraintTable table;
@@ -389,7 +389,7 @@ CheckReport checkPartitioned(const CheckArguments& arguments)
 StoredTetrahedra readPieces(const CheckArguments& arguments, const std::vector<double>& xyz)
 {
   const PartitionedMesh mesh = openPartitionedMesh(arguments.Mesh);
-  verifyPvtu(mesh);
+  verifyViews(mesh);
   StoredTetrahedra stored;
   const PieceOptions options = withNeighborsOnly(mesh);
   std::size_t found = 0;

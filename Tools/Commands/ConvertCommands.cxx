@@ -6,6 +6,9 @@
 #include "Commands/VtkFiles.h"
 #include "Console/Process.h"
 #include "Files/Formats.h"
+#include "Files/IOError.h"
+#include "Files/InputFile.h"
+#include "Files/OutputFile.h"
 #include "Files/PendingOutput.h"
 #include "Files/RequireApart.h"
 #include "Flat/FlatMesh.h"
@@ -13,6 +16,7 @@
 #include "Flat/FlatUgrid.h"
 #include "Flat/FlattenDataSet.h"
 #include "Partitioned/PartitionedMesh.h"
+#include "Partitioned/WriteVtkHdf.h"
 #include "Partitioning/FlattenPieces.h"
 #include "Partitioning/PartitionMesh.h"
 #include "Ranks/Communicator.h"
@@ -43,6 +47,8 @@ constexpr const char* flattenFooter =
 OUTPUT  a folder that does not exist yet: cells.npy, points.npy, point_data/NAME.npy, cell_data/NAME.npy and, for
         values that vary in time, time.npy; description.json states units, the calendar and
         the reference system. Or a mesh of triangles in NetCDF by UGRID (.nc).
+        Or, of a partitioned mesh of any size, a VTKHDF file (.vtkhdf) with a partition
+        for each piece and all time steps; one array of a piece is in memory at a time.
 
 Other cells are cut into triangles or tetrahedra. Cells of a lower dimension, ghost
 cells and arrays of strings are left out. The command reports the cells that it has cut
@@ -54,6 +60,7 @@ Examples:
   tipp flatten fort.14 -o surge --values fort.63 --values maxele.63
   tipp flatten fort.63.nc -o surge
   tipp flatten mesh.tipp -o mesh.nc --crs EPSG:32617
+  tipp flatten mesh.tipp -o mesh.vtkhdf
   tipp flatten fesom.mesh.diag.nc -o sst --values sst.1948.nc --wrap
 )";
 
@@ -87,9 +94,14 @@ struct FlattenArguments
   PathState Before; ///< of the output, if it is a file
 };
 
-bool isFile(const FlattenArguments& arguments)
+bool isNetcdf(const FlattenArguments& arguments)
 {
   return openerOf(arguments.Output, Use::WritesTriangles) == Opener::Netcdf;
+}
+
+bool isVtkHdf(const FlattenArguments& arguments)
+{
+  return extensionOf(arguments.Output) == ".vtkhdf";
 }
 
 /// `leftOut` and `ghostCells`: as in Flattened.
@@ -137,7 +149,7 @@ int writeFile(const FlattenArguments& arguments, UgridContent content)
 /// Writes the folder or file. Returns the exit code.
 int writeContent(const FlattenArguments& arguments, const FlatContent& content)
 {
-  if (isFile(arguments))
+  if (isNetcdf(arguments))
   {
     return writeFile(arguments, ugridOf(content, arguments.Input));
   }
@@ -158,8 +170,8 @@ int flattenModelOutput(const FlattenArguments& arguments)
   const auto series = isMeshSeries(arguments.Input)
     ? openMeshSeries(arguments.Input, arguments.Model)
     : openFlatSeries(arguments.Input);
-  const int code = isFile(arguments) ? writeFile(arguments, ugridOf(*series))
-                                     : writeContent(arguments, flattenSeries(*series));
+  const int code = isNetcdf(arguments) ? writeFile(arguments, ugridOf(*series))
+                                       : writeContent(arguments, flattenSeries(*series));
   if (code == Success)
   {
     warnOfVariablesLeftOut(series->Path, series->LeftOut);
@@ -172,7 +184,7 @@ void checkPaths(FlattenArguments& arguments)
 {
   std::vector<std::string> inputs = arguments.Model.Values;
   inputs.push_back(arguments.Input);
-  if (isFile(arguments))
+  if (isNetcdf(arguments) || isVtkHdf(arguments))
   {
     arguments.Before = requireWritable(arguments.Output, "", inputs);
     return;
@@ -182,15 +194,39 @@ void checkPaths(FlattenArguments& arguments)
   const PendingFolder writable(arguments.Output);
 }
 
+/// Writes the file. Returns the exit code.
+int writePartitions(const FlattenArguments& arguments)
+{
+  if (!isPartitionedMesh(arguments.Input))
+  {
+    throw IOError(arguments.Input,
+      "is not a partitioned mesh, of which alone a .vtkhdf file is made; partition it first, as "
+      "with 'tipp partition'.");
+  }
+  const PartitionedMesh mesh = openPartitionedMesh(arguments.Input);
+  if (!writeVtkHdf(mesh, arguments.Output, arguments.Before, isInterrupted))
+  {
+    return reportInterrupt();
+  }
+  fmt::print("{} {}, {} points, {} partitions{} in {}\n", mesh.Cells,
+    mesh.CellSize == 3 ? "triangles" : "tetrahedra", mesh.Points, mesh.Pieces.size(),
+    mesh.Times.empty() ? "" : fmt::format(", {} steps", mesh.Times.size()), arguments.Output);
+  return Success;
+}
+
 int runFlatten(FlattenArguments& arguments)
 {
   checkPaths(arguments);
+  if (isVtkHdf(arguments))
+  {
+    return writePartitions(arguments);
+  }
   if (!arguments.Crs.empty())
   {
     requireCrs(arguments.Crs);
   }
   const bool isFolder = isFlatMesh(arguments.Input) && !isOpenedBy(arguments.Input, Opener::Vtk);
-  if (isMeshSeries(arguments.Input) || (isFolder && isFile(arguments)))
+  if (isMeshSeries(arguments.Input) || (isFolder && isNetcdf(arguments)))
   {
     return flattenModelOutput(arguments);
   }
@@ -215,7 +251,8 @@ int runFlatten(FlattenArguments& arguments)
 void addOptions(CLI::App& command, FlattenArguments& arguments)
 {
   command.add_option("input", arguments.Input, "The mesh")->required();
-  command.add_option("-o,--output", arguments.Output, "The folder, or the .nc file, to write")
+  command
+    .add_option("-o,--output", arguments.Output, "The folder, or the .nc or .vtkhdf file, to write")
     ->required();
   addModelOptions(command, arguments.Model);
   command.add_option("--crs", arguments.Crs,
@@ -225,7 +262,7 @@ void addOptions(CLI::App& command, FlattenArguments& arguments)
 int run(FlattenArguments& arguments)
 {
   requireModel(arguments.Input, arguments.Model);
-  refuseIf(!arguments.Crs.empty() && !isFile(arguments), "--crs", "needs an output named .nc");
+  refuseIf(!arguments.Crs.empty() && !isNetcdf(arguments), "--crs", "needs an output named .nc");
   return isIdleRank() ? Success : runFlatten(arguments);
 }
 
@@ -248,9 +285,9 @@ constexpr const char* partitionFooter =
         place whatever its size; or any VTK file of triangles or tetrahedra that
         fits in memory; or the output of a model, as for 'tipp flatten', with its time
         steps, which need their space on the disk twice for the time of the run.
-MESH    a folder: mesh.pvtu, which ParaView and vtkXMLPUnstructuredGridReader read,
-        the pieces, and an index. An existing partitioned mesh is replaced when the new
-        one is complete.
+MESH    a folder: mesh.pvtu and mesh.vtkhdf, which ParaView and VTK read, the pieces,
+        and an index. An existing partitioned mesh is replaced when the new one is
+        complete.
 
 A cell belongs to the first partition that it meets; the other partitions it meets
 borrow it, by reference or as ghost cells in their own pieces. Under mpirun all ranks

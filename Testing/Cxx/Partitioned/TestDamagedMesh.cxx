@@ -109,6 +109,18 @@ TEST_F(DamagedMesh, LacksThePvtuOrAPartOfIt)
   this->expectRefused("mesh.pvtu", "missing");
 }
 
+TEST_F(DamagedMesh, IsReadWithoutAVtkHdfThatTheIndexDoesNotName)
+{
+  ForgedMesh forged(this->path());
+  const std::size_t begin = forged.Index.find(",\n\"vtkhdf_bytes\"");
+  const std::size_t end = forged.Index.find(",\n\"xxh3\"");
+  ASSERT_LT(begin, end);
+  forged.Index.erase(begin, end - begin);
+  forged.write();
+  fs::remove(this->path("mesh.vtkhdf"));
+  this->readAll();
+}
+
 TEST_F(DamagedMesh, HasATruncatedPiece)
 {
   fs::resize_file(this->path("pieces/000001.vtu"), 1000);
@@ -174,7 +186,7 @@ protected:
   void verifyAll() const
   {
     const PartitionedMesh mesh = openPartitionedMesh(this->path());
-    verifyPvtu(mesh);
+    verifyViews(mesh);
     for (std::size_t i = 0; i < mesh.Pieces.size(); ++i)
     {
       PieceFile(mesh, i).verifyAll();

@@ -181,7 +181,7 @@ TEST_F(RoundTrip, HasTheSameFilesForEveryLoaderChunkAndThread)
 {
   this->use(makeSource(latticeTriangles(12, 0.3)));
   const auto expected = filesOf(this->make("grid:3x3", duplicating()));
-  EXPECT_EQ(12U, expected.size()); // pieces, index, tables and .pvtu
+  EXPECT_EQ(13U, expected.size()); // pieces, index, tables, .pvtu and .vtkhdf
   for (const Loader loader : { Loader::Auto, Loader::Direct, Loader::Fine, Loader::Mmap })
   {
     for (const std::int64_t chunk : { 1, 30, 100000 })

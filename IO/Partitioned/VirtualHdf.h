@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippVirtualHdf_h
+#define tippVirtualHdf_h
+
+#include "Partitioned/PartitionedMesh.h"
+
+namespace tipp
+{
+
+/// Writes mesh.vtkhdf, which VTK reads as an unstructured grid with a partition for each piece. Its
+/// arrays are virtual: their values are in the pieces' files, whose names are relative to the
+/// mesh's folder. Returns once it is on the disk. Throws IOError.
+void writeVirtualHdf(const PartitionedMesh& mesh);
+
+} // namespace tipp
+
+#endif
