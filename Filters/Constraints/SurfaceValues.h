@@ -20,8 +20,8 @@ namespace tipp
 /// Sets the tuples of new points, which follow the first `points` tuples of an array, to
 /// valueOf(newPoint, valueAt) for each component; valueAt(id) is its value at an earlier point.
 /// Integers are rounded.
-template <typename NewPoint, typename ValueOf>
-void appendTuples(const std::vector<NewPoint>& newPoints, std::size_t points, Scalar type,
+template <typename NewPoints, typename ValueOf>
+void appendTuples(const NewPoints& newPoints, std::size_t points, Scalar type,
   std::size_t components, void* values, const ValueOf& valueOf)
 {
   withScalar(type,
@@ -30,7 +30,7 @@ void appendTuples(const std::vector<NewPoint>& newPoints, std::size_t points, Sc
       using Value = decltype(kind);
       auto* const tuples = static_cast<Value*>(values);
       Value* to = tuples + points * components;
-      for (const NewPoint& point : newPoints)
+      for (const auto& point : newPoints)
       {
         for (std::size_t c = 0; c < components; ++c)
         {

@@ -234,6 +234,11 @@ private:
           takeCoordinates(
             points, raw.data() + std::size_t(i) * bytes, 1, int(dimension), &at.Min.x);
           at.Max = at.Min;
+          if (!isFinite(at.Min))
+          {
+            owners[std::size_t(i)] = 0; // in no box, and as the partitioner has it
+            return;
+          }
           std::int32_t owner = std::numeric_limits<std::int32_t>::max();
           this->Tiling->forEachMeeting(
             at, [&owner](std::int32_t box) { owner = std::min(owner, box); });

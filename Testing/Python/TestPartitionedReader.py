@@ -38,6 +38,12 @@ class Read(unittest.TestCase):
         self.reader.Update()
         return self.reader.GetOutputDataObject(0)
 
+    def test_a_point_without_coordinates_that_no_cell_has_is_kept(self):
+        np.save(self.folder / "points.npy", np.r_[self.points, [[np.nan, 5]]])
+        np.save(self.folder / "point_data" / "heat.npy", np.zeros(len(self.points) + 1))
+        mesh = self.output()
+        self.assertEqual((len(self.points) + 1, len(self.cells)), (mesh.GetNumberOfPoints(), mesh.GetNumberOfCells()))
+
     def test_numpy_arrays_are_read_by_global_ids(self):
         mesh = self.output()
         ids = vtk_to_numpy(mesh.GetPointData().GetGlobalIds())
