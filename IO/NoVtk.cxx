@@ -197,10 +197,7 @@ ConstraintTable readVtkConstraints(const std::string& path)
 
 std::string cellTypeName(int type)
 {
-  return type == 0 ? "vtkEmptyCell"
-    : type == 8    ? "vtkPixel"
-    : type == 11   ? "vtkVoxel"
-                   : "type " + std::to_string(type);
+  return type == 8 ? "vtkPixel" : type == 11 ? "vtkVoxel" : "type " + std::to_string(type);
 }
 
 Flattened flattenVtkImage(const std::string& path)

@@ -13,7 +13,6 @@
 #include <array>
 #include <cstddef>
 #include <memory>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -52,12 +51,9 @@ constexpr const char* ghosts = "vtkGhostType";
 
 /// Of VTK's cell types and bits of vtkGhostType.
 ///@{
-constexpr int emptyCell = 0;
 constexpr int pixel = 8;
 constexpr int voxel = 11;
-constexpr unsigned hiddenPoint = 2;
 constexpr unsigned duplicateCell = 1;
-constexpr unsigned refinedCell = 8;
 constexpr unsigned hiddenCell = 32;
 ///@}
 
@@ -110,7 +106,6 @@ class ImageCutter
 public:
   ImageCutter(const RawVtkFile& file, const std::vector<double>& points, Flattened& result)
     : Points(points)
-    , PointGhosts(ghostsIn(file.PointData))
     , CellGhosts(ghostsIn(file.CellData))
     , Result(result)
   {
@@ -132,9 +127,8 @@ public:
     }
   }
 
-  /// Sets the result's cells and counts. Returns the id of each simplex's cell in the image;
-  /// nullopt if all cells are hidden.
-  std::optional<Ids> cut()
+  /// Sets the result's cells and counts. Returns the id of each simplex's cell in the image.
+  Ids cut()
   {
     const bool isFlat = this->Corners.size() == 4;
     this->Result.Content.CellSize = isFlat ? 3 : 4;
@@ -154,7 +148,7 @@ public:
         }
       }
     }
-    return this->HasVisible ? std::make_optional(std::move(parents)) : std::nullopt;
+    return parents;
   }
 
 private:
@@ -162,16 +156,9 @@ private:
   std::size_t cutCell(std::int64_t cell, std::int64_t first)
   {
     const unsigned marks = this->CellGhosts.empty() ? 0 : this->CellGhosts[std::size_t(cell)];
-    const bool isHidden = (marks & (refinedCell | hiddenCell)) != 0 || this->hasHiddenPoint(first);
-    this->HasVisible = this->HasVisible || !isHidden;
     if ((marks & (duplicateCell | hiddenCell)) != 0)
     {
       ++this->Result.GhostCells;
-      return 0;
-    }
-    if (isHidden)
-    {
-      ++this->Result.LeftOut[cellTypeName(emptyCell)];
       return 0;
     }
     if (this->Corners.size() == 4)
@@ -181,14 +168,6 @@ private:
     }
     ++this->Result.Cut[cellTypeName(voxel)];
     return this->append(tetrahedraOfVoxel, first);
-  }
-
-  bool hasHiddenPoint(std::int64_t first) const
-  {
-    return !this->PointGhosts.empty() &&
-      std::any_of(this->Corners.begin(), this->Corners.end(),
-        [&](std::int64_t corner)
-        { return (this->PointGhosts[std::size_t(first + corner)] & hiddenPoint) != 0; });
   }
 
   template <typename Simplices>
@@ -225,13 +204,11 @@ private:
   }
 
   const std::vector<double>& Points;
-  const Bytes PointGhosts;
   const Bytes CellGhosts;
   Flattened& Result;
   std::array<std::int64_t, 3> Cells = {};   ///< number along each axis
   std::array<std::int64_t, 3> Strides = {}; ///< of points
   Ids Corners;                              ///< of a cell, from its first one
-  bool HasVisible = false;
 };
 
 /// Returns the arrays, except for marks of ghosts. Those without a name get one.
@@ -280,23 +257,19 @@ void requireMemory(const RawVtkFile& file, int dimension, const std::string& pat
 Flattened flattenImage(const RawVtkFile& file, const std::string& path)
 {
   const int dimension = dimensionOf(file);
+  if (dimension < 2)
+  {
+    throw IOError(path, "holds no cells with an area or a volume; triangulate its points first.");
+  }
   requireMemory(file, dimension, path);
   std::vector<double> points = imagePoints(file);
   Flattened flattened;
   FlatContent& content = flattened.Content;
-  std::optional<Ids> parents;
-  if (dimension >= 2)
-  {
-    parents = ImageCutter(file, points, flattened).cut();
-  }
-  if (!parents)
-  {
-    throw IOError(path, "holds no cells with an area or a volume; triangulate its points first.");
-  }
+  Ids parents = ImageCutter(file, points, flattened).cut();
   const auto kept = std::make_shared<std::vector<double>>(std::move(points));
   content.Points = { "", Scalar::Float64, 3, file.PointCount, 0, kept->data(), kept };
   content.PointData = arraysOf(file.PointData);
-  setCellData(flattened, arraysOf(file.CellData), std::move(*parents));
+  setCellData(flattened, arraysOf(file.CellData), std::move(parents));
   return flattened;
 }
 
