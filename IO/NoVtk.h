@@ -5,6 +5,7 @@
 #include "Files/InputFile.h"
 #include "Files/RawArray.h"
 #include "Flat/FlattenDataSet.h"
+#include "Flat/Flattened.h"
 #include "vtkTIPPIOModule.h"
 
 #include <cstddef>

@@ -4,7 +4,6 @@
 #include "Arrays/Scalar.h"
 #include "Files/IOError.h"
 #include "Files/VtkXml.h"
-#include "Flat/ParentCells.h"
 #include "Parallel/Poll.h"
 #include "Predicates/Geometry.h"
 #include "Vtk/CellArrays.h"

@@ -2,36 +2,15 @@
 #ifndef tippFlattenDataSet_h
 #define tippFlattenDataSet_h
 
-#include "Flat/FlatMesh.h"
+#include "Flat/Flattened.h"
 #include "vtkTIPPIOModule.h"
 
-#include <cstdint>
-#include <map>
 #include <string>
-#include <vector>
 
 class vtkDataSet;
 
 namespace tipp
 {
-
-/// The result of flattenDataSet().
-struct Flattened
-{
-  FlatContent Content; ///< refers to the data set, which must outlive it
-  /// Number of cells that were cut into several, by VTK's class name.
-  std::map<std::string, std::int64_t> Cut;
-  /// Number of cells left out, by VTK's class name: cells of a lower dimension than others (points,
-  /// lines, and triangles if there are tetrahedra), and empty cells.
-  std::map<std::string, std::int64_t> LeftOut;
-  std::int64_t GhostCells = 0; ///< number of ghost cells left out, which another piece owns
-  std::vector<std::string> ArraysLeftOut; ///< arrays that are not numeric
-
-  bool areCellsChanged() const
-  {
-    return !this->Cut.empty() || !this->LeftOut.empty() || this->GhostCells > 0;
-  }
-};
 
 /// Converts a data set's points (float32 if the input's are, else float64), its numeric arrays and
 /// its cells: to triangles or, if some cells have a volume, to tetrahedra of positive volume, over

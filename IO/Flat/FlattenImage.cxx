@@ -5,7 +5,6 @@
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
 #include "Files/VtkXml.h"
-#include "Flat/ParentCells.h"
 #include "Parallel/Poll.h"
 #include "Predicates/Geometry.h"
 

@@ -2,10 +2,11 @@
 #ifndef tippFlattenImage_h
 #define tippFlattenImage_h
 
-#include "Flat/FlattenDataSet.h"
+#include "Flat/Flattened.h"
 #include "Flat/RawVtkFile.h"
 
 #include <string>
+#include <vector>
 
 namespace tipp
 {

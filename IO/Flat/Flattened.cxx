@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Flat/ParentCells.h"
+#include "Flat/Flattened.h"
 
 #include <algorithm>
 #include <cstddef>
