@@ -246,6 +246,31 @@ bool VtkHdfFile::shareMesh(std::size_t step, std::size_t other) const
       [](const CellStart& c, const CellStart& d) { return c.Cells == d.Cells && c.Ids == d.Ids; });
 }
 
+bool VtkHdfFile::haveEqualMesh(std::size_t step, std::size_t other)
+{
+  if (this->shareMesh(step, other))
+  {
+    return true;
+  }
+  const auto areEqual = [&](const Group& group)
+  {
+    const std::string name = group.Prefix.substr(0, group.Prefix.find('/'));
+    const HdfCells a = this->readCells(step, name);
+    const HdfCells b = this->readCells(other, name);
+    return a.Ids == b.Ids && a.Offsets == b.Offsets && a.Types == b.Types;
+  };
+  return this->points(step) == this->points(other) && this->cells(step) == this->cells(other) &&
+    this->readPoints(step).Bytes == this->readPoints(other).Bytes &&
+    std::all_of(this->Groups.begin(), this->Groups.end(), areEqual);
+}
+
+bool VtkHdfFile::varies(const HdfArray& array)
+{
+  const std::vector<std::int64_t> offsets = this->offsetsOf(array);
+  return std::any_of(offsets.begin(), offsets.end(),
+    [&offsets](std::int64_t offset) { return offset != offsets.front(); });
+}
+
 HdfValues VtkHdfFile::readTuples(
   const NetcdfVariable& variable, std::int64_t begin, std::int64_t count)
 {
@@ -343,22 +368,22 @@ HdfCells VtkHdfFile::readCells(std::size_t step, const std::string& group)
   return cells;
 }
 
-/// Where the values of an array begin at a step.
-std::int64_t VtkHdfFile::offsetOf(const HdfArray& array, std::size_t step)
+/// Where the values of an array begin at each step.
+std::vector<std::int64_t> VtkHdfFile::offsetsOf(const HdfArray& array)
 {
   const std::string name =
     std::string(array.OnCells ? "CellDataOffsets/" : "PointDataOffsets/") + array.Name;
+  const std::size_t steps = this->steps();
   if (this->Times.empty())
   {
-    return 0;
+    return std::vector<std::int64_t>(steps, 0);
   }
   if (const NetcdfVariable* const variable = this->File.content().find("Steps/" + name))
   {
     const std::vector<std::int64_t> shape = this->File.content().shape(*variable);
-    const std::size_t steps = this->Times.size();
     // vtkHDFWriter adds no offset for a step without the array, so that those after it are shifted.
     const bool isShort = !shape.empty() && shape[0] < std::int64_t(steps);
-    const std::vector<std::int64_t> offsets =
+    std::vector<std::int64_t> offsets =
       isShort ? std::vector<std::int64_t>() : this->readOffsets(name, steps);
     if (isShort || (offsets.size() == steps && !this->hasEveryStep(array, offsets)))
     {
@@ -366,9 +391,14 @@ std::int64_t VtkHdfFile::offsetOf(const HdfArray& array, std::size_t step)
         "lacks the array '" + array.Name + "' at some of its " + std::to_string(steps) +
           " steps, and does not say at which; leave it out, or write it at every step.");
     }
-    return offsets.size() == steps ? offsets[step] : 0;
+    return offsets.size() == steps ? offsets : std::vector<std::int64_t>(steps, 0);
   }
-  return array.OnCells ? this->Steps[step].Starts.front().Cells : this->Steps[step].Points;
+  std::vector<std::int64_t> offsets;
+  for (const Step& step : this->Steps)
+  {
+    offsets.push_back(array.OnCells ? step.Starts.front().Cells : step.Points);
+  }
+  return offsets;
 }
 
 /// Whether an array has values from each step's offset on.
@@ -392,7 +422,7 @@ HdfValues VtkHdfFile::read(const HdfArray& array, std::size_t step)
   const NetcdfVariable& variable =
     this->require((array.OnCells ? "CellData/" : "PointData/") + array.Name);
   return this->readTuples(
-    variable, this->offsetOf(array, step), array.OnCells ? this->cells(step) : this->points(step));
+    variable, this->offsetsOf(array)[step], array.OnCells ? this->cells(step) : this->points(step));
 }
 
 } // namespace tipp

@@ -61,6 +61,10 @@ public:
   std::int64_t cells(std::size_t step) const;
   /// Whether two steps have the same points and cells by their place in the file.
   bool shareMesh(std::size_t step, std::size_t other) const;
+  /// Whether two steps have equal points and cells, which are read if they do not share them.
+  bool haveEqualMesh(std::size_t step, std::size_t other);
+  /// Whether an array has values of its own at some step.
+  bool varies(const HdfArray& array);
 
   HdfValues readPoints(std::size_t step);
   /// `group`: of a poly data's cells, such as "Polygons"; empty for an unstructured grid.
@@ -102,7 +106,7 @@ private:
   std::vector<std::int64_t> readCountsOf(const std::string& name);
   std::vector<std::int64_t> readOffsets(const std::string& name, std::size_t steps);
   std::int64_t cellsBefore(std::size_t step, std::size_t group) const;
-  std::int64_t offsetOf(const HdfArray& array, std::size_t step);
+  std::vector<std::int64_t> offsetsOf(const HdfArray& array);
   bool hasEveryStep(const HdfArray& array, const std::vector<std::int64_t>& offsets) const;
   const NetcdfVariable& require(const std::string& name) const;
   [[noreturn]] void fail(const std::string& problem) const;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <utility>
@@ -178,6 +179,16 @@ private:
 void writeVirtualHdf(const PartitionedMesh& mesh)
 {
   VirtualHdfWriter(mesh).write();
+}
+
+void requirePiecesOf(const std::string& vtkHdf)
+{
+  const std::filesystem::path path(vtkHdf);
+  const std::string folder = path.has_parent_path() ? path.parent_path().string() : ".";
+  if (path.filename() == "mesh.vtkhdf" && isPartitionedMesh(folder))
+  {
+    openPartitionedMesh(folder);
+  }
 }
 
 } // namespace tipp

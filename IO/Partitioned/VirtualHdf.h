@@ -4,6 +4,8 @@
 
 #include "Partitioned/PartitionedMesh.h"
 
+#include <string>
+
 namespace tipp
 {
 
@@ -11,6 +13,10 @@ namespace tipp
 /// arrays are virtual: their values are in the pieces' files, whose names are relative to the
 /// mesh's folder. Returns once it is on the disk. Throws IOError.
 void writeVirtualHdf(const PartitionedMesh& mesh);
+
+/// If a file is the mesh.vtkhdf of a partitioned mesh, throws IOError unless all of the mesh's
+/// files are there, in their sizes: HDF5 reads zeros for the others.
+void requirePiecesOf(const std::string& vtkHdf);
 
 } // namespace tipp
 

@@ -5,6 +5,7 @@
 #include "Files/InputFile.h"
 #include "Files/RawValues.h"
 #include "Hdf/VtkHdfFile.h"
+#include "Partitioned/VirtualHdf.h"
 #include "Series/CellSeries.h"
 #include "Series/CheckTimes.h"
 #include "Series/ModelSeries.h"
@@ -204,14 +205,7 @@ private:
   /// Throws IOError unless a step has the points and cells of step 0.
   void requireSameMesh(std::size_t step)
   {
-    if (this->Known.count(step) != 0 || this->File.shareMesh(step, 0))
-    {
-      return;
-    }
-    const HdfCells cells = this->readCells(step);
-    const HdfCells first = this->readCells(0);
-    if (this->File.readPoints(step).Bytes != this->File.readPoints(0).Bytes ||
-      cells.Ids != first.Ids || cells.Offsets != first.Offsets || cells.Types != first.Types)
+    if (this->Known.count(step) == 0 && !this->File.haveEqualMesh(step, 0))
     {
       this->failAt(step);
     }
@@ -228,6 +222,7 @@ private:
 std::unique_ptr<MeshSeries> openVtkHdfSeries(const std::string& path, const SeriesOptions& options)
 {
   refuseValues(path, options);
+  requirePiecesOf(path);
   return std::make_unique<VtkHdfSeries>(path, options);
 }
 

@@ -3,11 +3,13 @@
 
 #include "Files/IOError.h"
 #include "Hdf/VtkHdfFile.h"
+#include "Partitioned/VirtualHdf.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkCellType.h"
 #include "vtkDataArray.h"
+#include "vtkDataSetAttributes.h"
 #include "vtkIdTypeArray.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
@@ -17,7 +19,9 @@
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace tipp
@@ -75,27 +79,42 @@ vtkSmartPointer<vtkPointSet> readPolyData(VtkHdfFile& file)
   return data;
 }
 
+/// Throws IOError unless all steps have the same points and cells.
+void requireOneMesh(VtkHdfFile& file)
+{
+  for (std::size_t step = 1; step < file.steps(); ++step)
+  {
+    if (!file.haveEqualMesh(step, 0))
+    {
+      throw IOError(file.path(),
+        "has other points or cells at step " + std::to_string(step) +
+          " (from 0) than at step 0, and one mesh is needed here; extract a step in ParaView.");
+    }
+  }
+}
+
 } // namespace
 
 vtkSmartPointer<vtkDataSet> readVtkHdf(const std::string& path)
 {
+  requirePiecesOf(path);
   VtkHdfFile file(path);
-  if (file.steps() > 1)
-  {
-    throw IOError(path,
-      "has " + std::to_string(file.steps()) +
-        " time steps, and one is needed here; extract it in ParaView, or flatten the file with "
-        "'tipp flatten'.");
-  }
+  requireOneMesh(file);
   const vtkSmartPointer<vtkPointSet> data = file.isPolyData() ? readPolyData(file) : readGrid(file);
   vtkNew<vtkPoints> points;
   points->SetData(arrayOf(file.readPoints(0)));
   data->SetPoints(points);
   for (const HdfArray& array : file.arrays())
   {
-    const vtkSmartPointer<vtkDataArray> values = arrayOf(file.read(array, 0));
-    values->SetName(array.Name.c_str());
-    array.OnCells ? data->GetCellData()->AddArray(values) : data->GetPointData()->AddArray(values);
+    const bool isSplit = array.Name != vtkDataSetAttributes::GhostArrayName() && file.varies(array);
+    for (std::size_t step = 0; step < (isSplit ? file.steps() : 1); ++step)
+    {
+      const vtkSmartPointer<vtkDataArray> values = arrayOf(file.read(array, step));
+      const std::string suffix = isSplit ? " step " + std::to_string(step) : "";
+      values->SetName((array.Name + suffix).c_str());
+      array.OnCells ? data->GetCellData()->AddArray(values)
+                    : data->GetPointData()->AddArray(values);
+    }
   }
   return data;
 }

@@ -11,6 +11,11 @@ from vtkmodules.vtkFiltersSources import vtkPlaneSource
 from vtkmodules.vtkFiltersCore import vtkTriangleFilter
 from vtkmodules.vtkIOXML import vtkXMLPUnstructuredGridReader
 
+try:
+    from vtkmodules.vtkIOHDF import vtkHDFReader
+except ImportError:
+    vtkHDFReader = None  # a VTK without HDF5
+
 from tipp import vtkPartitionedUnstructuredWriter
 
 
@@ -61,6 +66,31 @@ class PartitionedWriter(unittest.TestCase):
         ghosts = vtk_to_numpy(read(self.path).GetCellGhostArray())
         self.assertEqual((ghosts == 0).sum(), 200)
         self.assertGreater((ghosts == 1).sum(), 0)
+
+    @unittest.skipUnless(vtkHDFReader, "this VTK has no vtkHDFReader")
+    def test_vtk_reads_equal_grids_from_the_vtkhdf_and_the_pvtu(self):
+        for borrowers_are_duplicated in (False, True):
+            self.writer.SetInputData(plane())
+            self.writer.SetDuplicateBorrowers(borrowers_are_duplicated)
+            self.assertEqual(self.writer.Write(), 1)
+            reader = vtkHDFReader()
+            reader.SetFileName(str(self.path / "mesh.vtkhdf"))
+            reader.Update()
+            self.assert_equal_grids(read(self.path), reader.GetOutput())
+
+    def assert_equal_grids(self, expected, found):
+        def arrays_of(grid):
+            cells = grid.GetCells()
+            arrays = [grid.GetPoints().GetData(), cells.GetConnectivityArray(), cells.GetOffsetsArray(),
+                      grid.GetCellTypesArray()]
+            for data in (grid.GetPointData(), grid.GetCellData()):
+                names = sorted(data.GetArrayName(i) for i in range(data.GetNumberOfArrays()))
+                arrays += [data.GetArray(name) for name in names]
+            return arrays
+
+        self.assertEqual(len(arrays_of(expected)), len(arrays_of(found)))
+        for one, other in zip(arrays_of(expected), arrays_of(found)):
+            np.testing.assert_array_equal(vtk_to_numpy(one), vtk_to_numpy(other))
 
     def test_joins_the_parts_of_a_partitioned_data_set(self):
         parts = vtkPartitionedDataSet()

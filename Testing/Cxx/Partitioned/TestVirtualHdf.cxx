@@ -8,6 +8,9 @@
 #include "Partitioned/PieceFile.h"
 #include "Partitioned/WriteVtkHdf.h"
 #include "Partitioning/PartitionMesh.h"
+#include "Vtk/DataSets.h"
+
+#include "vtkDataSet.h"
 
 #include <gtest/gtest.h>
 
@@ -197,6 +200,16 @@ TEST_F(VirtualHdf, IsCheckedBeforeTheMeshIsRead)
     mesh.vtkHdfPath(), "100 bytes where the index says", [&] { openPartitionedMesh(mesh.Path); });
   std::filesystem::remove(mesh.vtkHdfPath());
   expectIOError(mesh.vtkHdfPath(), "missing", [&] { openPartitionedMesh(mesh.Path); });
+}
+
+TEST_F(VirtualHdf, IsNotReadWithoutAllPieces)
+{
+  const PartitionedMesh mesh = this->make(makeSource(latticeTriangles(6, 0.3)), "grid:2x2");
+  EXPECT_EQ(mesh.Cells, readDataSet(mesh.vtkHdfPath())->GetNumberOfCells());
+  std::filesystem::resize_file(mesh.piecePath(1), mesh.Pieces[1].FileBytes - 1);
+  expectIOError(mesh.piecePath(1), "where the index says", [&] { readDataSet(mesh.vtkHdfPath()); });
+  std::filesystem::remove(mesh.piecePath(1));
+  expectIOError(mesh.piecePath(1), "missing", [&] { readDataSet(mesh.vtkHdfPath()); });
 }
 
 TEST_F(VirtualHdf, HasACopyWithoutOtherFiles)

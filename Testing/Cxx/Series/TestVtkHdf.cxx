@@ -144,8 +144,18 @@ TEST_F(VtkHdf, StepsAreASeriesWithoutGhosts)
   EXPECT_EQ((Doubles{ 10, 11, 12, 13, 14, 15, 16, 17 }), values);
   series->read(findSeriesVariable(*series, "elevation"), 1, values);
   EXPECT_EQ((Doubles{ 5, 5, 5, 5, 7, 7, 7, 7 }), values);
-  expectIOError(
-    this->Path, "has 2 time steps, and one is needed", [&] { readDataSet(this->Path); });
+}
+
+TEST_F(VtkHdf, StepsAreArraysOfOneDataSet)
+{
+  this->write(ofTwoSteps(), twoSteps());
+  const vtkSmartPointer<vtkPointSet> data = readPointSet(this->Path);
+  EXPECT_EQ(3, data->GetNumberOfCells());
+  vtkPointData* const points = data->GetPointData();
+  EXPECT_EQ(2, points->GetNumberOfArrays());
+  EXPECT_EQ(6.0, points->GetArray("level step 0")->GetTuple1(6));
+  EXPECT_EQ(16.0, points->GetArray("level step 1")->GetTuple1(6));
+  EXPECT_EQ(1.0, data->GetCellData()->GetArray("vtkGhostType")->GetTuple1(2));
 }
 
 TEST_F(VtkHdf, StepsMayRepeatTheMesh)
