@@ -128,12 +128,17 @@ private:
   {
     for (const HdfArray& array : this->File.arrays())
     {
-      for (std::int64_t i = 0; i < array.Components && array.Name != ghosts; ++i)
+      if (array.Name == ghosts)
+      {
+        continue;
+      }
+      const bool varies = this->File.varies(array);
+      for (std::int64_t i = 0; i < array.Components; ++i)
       {
         const std::string name =
           array.Components == 1 ? array.Name : array.Name + "_" + std::to_string(i);
         SeriesVariable variable{ freeName(this->Variables, name), "", "", array.Type, array.OnCells,
-          !this->Times.empty() };
+          varies };
         variable.Vector = array.Components == 1 ? "" : array.Name;
         this->Variables.push_back(std::move(variable));
         this->Sources.push_back({ array, i });

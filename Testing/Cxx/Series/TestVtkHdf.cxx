@@ -158,6 +158,16 @@ TEST_F(VtkHdf, StepsAreArraysOfOneDataSet)
   EXPECT_EQ(1.0, data->GetCellData()->GetArray("vtkGhostType")->GetTuple1(2));
 }
 
+TEST_F(VtkHdf, AnArrayWithTheSameValuesAtEachStepDoesNotVary)
+{
+  Steps steps = twoSteps();
+  steps.Level = { 0, 0 };
+  this->write(Content(), steps);
+  const auto series = openMeshSeries(this->Path);
+  EXPECT_FALSE(series->Variables[findSeriesVariable(*series, "level")].Varies);
+  EXPECT_NE(nullptr, readPointSet(this->Path)->GetPointData()->GetArray("level"));
+}
+
 TEST_F(VtkHdf, StepsMayRepeatTheMesh)
 {
   Content content = ofTwoSteps();
