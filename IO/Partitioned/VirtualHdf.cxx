@@ -187,7 +187,7 @@ void requirePiecesOf(const std::string& vtkHdf)
   const std::string folder = path.has_parent_path() ? path.parent_path().string() : ".";
   if (path.filename() == "mesh.vtkhdf" && isPartitionedMesh(folder))
   {
-    openPartitionedMesh(folder);
+    verifyViews(openPartitionedMesh(folder));
   }
 }
 

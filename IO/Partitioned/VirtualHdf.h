@@ -14,8 +14,8 @@ namespace tipp
 /// mesh's folder. Returns once it is on the disk. Throws IOError.
 void writeVirtualHdf(const PartitionedMesh& mesh);
 
-/// If a file is the mesh.vtkhdf of a partitioned mesh, throws IOError unless all of the mesh's
-/// files are there, in their sizes: HDF5 reads zeros for the others.
+/// If a file is the mesh.vtkhdf of a partitioned mesh, throws IOError unless it has its checksum
+/// and all of the mesh's files are there, in their sizes: HDF5 reads zeros for the others.
 void requirePiecesOf(const std::string& vtkHdf);
 
 } // namespace tipp

@@ -202,6 +202,14 @@ TEST_F(VirtualHdf, IsCheckedBeforeTheMeshIsRead)
   expectIOError(mesh.vtkHdfPath(), "missing", [&] { openPartitionedMesh(mesh.Path); });
 }
 
+TEST_F(VirtualHdf, IsNotReadIfItHasChanged)
+{
+  const PartitionedMesh mesh = this->make(makeSource(latticeTriangles(6, 0.3)), "grid:2x2");
+  OutputFile::shared(mesh.vtkHdfPath()).write(100, "changed", 7);
+  expectIOError(
+    mesh.vtkHdfPath(), "does not have the checksum", [&] { readDataSet(mesh.vtkHdfPath()); });
+}
+
 TEST_F(VirtualHdf, IsNotReadWithoutAllPieces)
 {
   const PartitionedMesh mesh = this->make(makeSource(latticeTriangles(6, 0.3)), "grid:2x2");
