@@ -6,6 +6,7 @@
 #include "Files/PagedMemory.h"
 #include "FuzzDriver.h"
 #include "Predicates/ExactPredicates.h"
+#include "Predicates/Vectors.h"
 #include "Refinement/Smooth.h"
 #include "RefinementTesting.h"
 
