@@ -109,7 +109,8 @@ std::string datatypeOf(Scalar type)
   std::string text;
   append(
     text, isFloat ? 0x11 : 0x10, 1); // version 1, class of floating-point or fixed-point numbers
-  // An implied leading bit of the mantissa, and the place of the sign; or whether there is a sign.
+  // An implied leading bit of the mantissa, and the position of the sign; or whether there is a
+  // sign.
   append(text, isFloat ? 0x20 + (8 * bytes - 1) * 256 : isSigned ? 8 : 0, 3);
   append(text, bytes, 4);
   append(text, 0, 2);

@@ -356,7 +356,7 @@ class Files(unittest.TestCase):
         self.assertEqual(os.listdir(self.folder.name), ["points.npy"])
 
     def test_misuse_is_reported(self):
-        for memory in (0, -5, "2T", "", "1.5G", 1 << 70):
+        for memory in (0, -5, "2P", "", "1.5G", 1 << 70):
             with self.assertRaisesRegex(ValueError, "memory is"):
                 tipp.delaunay_file(self.input, self.output, memory=memory)
         with self.assertRaisesRegex(RuntimeError, "nothing.npy: cannot be opened"):

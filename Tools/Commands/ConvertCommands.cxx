@@ -140,8 +140,8 @@ int writeFile(const FlattenArguments& arguments, UgridContent content)
   {
     return reportInterrupt();
   }
-  fmt::print("{} triangles, {} points, {} arrays{} in {}\n", content.Triangles, content.Nodes,
-    content.Arrays.size(),
+  fmt::print("{} triangles, {} points, {}{} in {}\n", content.Triangles, content.Nodes,
+    counted(std::int64_t(content.Arrays.size()), "array", "arrays"),
     content.Times.empty() ? "" : fmt::format(", {} steps", content.Times.size()), arguments.Output);
   return Success;
 }
@@ -157,10 +157,9 @@ int writeContent(const FlattenArguments& arguments, const FlatContent& content)
   {
     return reportInterrupt();
   }
-  fmt::print("{} {}, {} points, {} arrays{} in {}\n",
-    content.Cells.size() / std::size_t(content.CellSize),
+  fmt::print("{} {}, {} points, {}{} in {}\n", content.Cells.size() / std::size_t(content.CellSize),
     content.CellSize == 3 ? "triangles" : "tetrahedra", content.Points.Tuples,
-    content.PointData.size() + content.CellData.size(),
+    counted(std::int64_t(content.PointData.size() + content.CellData.size()), "array", "arrays"),
     content.Times.empty() ? "" : fmt::format(", {} steps", content.Times.size()), arguments.Output);
   return Success;
 }

@@ -85,9 +85,10 @@ void summarize(const ResampleArguments& arguments, const SeriesSamples& samples,
   const SeriesPlan& plan, double finding, const SeriesTimes& times)
 {
   fmt::print(
-    "{} of {} samples, {} arrays, {}, {:.3f} s to find the samples, {:.3f} s sampling, "
+    "{} of {} samples, {}, {}, {:.3f} s to find the samples, {:.3f} s sampling, "
     "{:.3f} s reducing, {:.3f} s reading, {:.3f} s writing, peak memory {:.0f} MB, in {}\n",
-    samples.Kept.inside(), samples.Kept.samples(), plan.Variables.size(),
+    samples.Kept.inside(), samples.Kept.samples(),
+    counted(std::int64_t(plan.Variables.size()), "array", "arrays"),
     counted(std::int64_t(plan.Steps.size()), "step", "steps"), finding, times.Sampling,
     times.Reducing, times.Reading, times.Writing, double(peakMemoryBytes()) / 1e6,
     arguments.Output);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "QueryRanksTesting.h"
 
+#include "DamagePiece.h"
 #include "Query/Queries.h"
 #include "Query/RankAnswer.h"
 
 #include <algorithm>
-#include <fstream>
 
 using namespace tipp;
 using namespace tipp::test;
@@ -171,10 +171,7 @@ TEST_F(AnswersOnRanks, AFailureOfOneRankEndsAll)
   this->Ranks.barrier();
   if (this->Ranks.isFirst()) // damages the last piece, which belongs to the last rank
   {
-    const std::string piece = mesh.mesh().piecePath(15);
-    std::string content = contentOf(piece);
-    content[content.size() / 2] = char(content[content.size() / 2] ^ 1);
-    std::ofstream(piece, std::ios::binary) << content;
+    damagePiece(mesh.mesh().piecePath(15), "connectivity");
   }
   this->Ranks.barrier();
   const std::vector<Point3> points = this->ownOf(pointsAround(source, 100));

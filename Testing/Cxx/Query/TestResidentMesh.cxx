@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "QueryTesting.h"
 
+#include "DamagePiece.h"
 #include "ExpectIOError.h"
 #include "Files/IOError.h"
 #include "Query/Queries.h"
@@ -9,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <numeric>
 #include <random>
 #include <thread>
@@ -290,9 +290,7 @@ TEST_F(ResidentMeshTest, NamesADamagedPieceAndAnswersInTheOthers)
   store(source, this->path(), "grid:2x2", true);
   const ResidentMesh mesh(this->path());
   const std::string piece = mesh.mesh().piecePath(3);
-  std::string content = contentOf(piece);
-  content[content.size() / 2] = char(content[content.size() / 2] ^ 1);
-  std::ofstream(piece, std::ios::binary) << content;
+  damagePiece(piece, "connectivity");
   const std::vector<Point3> points = { mesh.mesh().Pieces[0].Box.center(), // good
     mesh.mesh().Pieces[3].Box.center() };                                  // damaged
   EXPECT_LE(0, mesh.answer(&points[0], 1).Cells[0]);

@@ -18,7 +18,7 @@ TEST_F(TippResampleSeries, WritesAllStepsAsOneArray)
 {
   const Outcome outcome = this->run({ "-o", "level.npy", "--step", "all", "--arrays", "level" });
   ASSERT_EQ(0, outcome.ExitCode) << outcome.Err;
-  EXPECT_NE(outcome.Out.find("25 of 25 samples, 1 arrays, 4 steps"), std::string::npos)
+  EXPECT_NE(outcome.Out.find("25 of 25 samples, 1 array, 4 steps"), std::string::npos)
     << outcome.Out;
   const std::vector<float> values = this->readNpy("level.npy", "4 x 5 x 5");
   for (std::size_t i = 0; i < 50; ++i)

@@ -1,37 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/Commands.h"
 #include "Commands/PointArguments.h"
+#include "Commands/QueryMesh.h"
 #include "Commands/QuerySeries.h"
 #include "Commands/Report.h"
-#include "Commands/SeriesReport.h"
-#include "Commands/VtkFiles.h"
 #include "Console/Process.h"
 #include "Files/Formats.h"
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
 #include "Files/PendingOutput.h"
-#include "Files/Platform.h"
 #include "Files/TextFile.h"
 #include "Gis/GisFiles.h"
 #include "Npy/NpyFile.h"
 #include "Parallel/ParallelFor.h"
-#include "Parallel/Poll.h"
 #include "Points/ReadPoints.h"
 #include "Query/Queries.h"
 #include "Query/RankAnswer.h"
 #include "Query/WriteLines.h"
 #include "Ranks/Communicator.h"
 #include "Resident/ResidentMesh.h"
-#include "Series/StepSelection.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
-#include <functional>
 #include <iterator>
 #include <limits>
 #include <memory>
@@ -43,17 +37,6 @@ namespace tipp
 {
 namespace
 {
-
-/// The mesh that a command queries, and how.
-struct QueryMeshArguments
-{
-  std::string Path;
-  /// Memory limit for the pieces of a partitioned mesh, as text.
-  std::string Memory = "1G";
-  /// Time step of arrays that vary in time, as text.
-  std::string Step;
-  int Threads = 0;
-};
 
 /// The options of --zones.
 struct ZoneArguments
@@ -71,101 +54,6 @@ struct RegionArguments
   std::string Polygons; ///< path of a file
   bool Whole = false;   ///< only cells that lie completely in the region
 };
-
-/// Adds --step, --memory and --threads.
-void addQueryMeshOptions(CLI::App& command, QueryMeshArguments& arguments)
-{
-  addChecked(command, "--step", arguments.Step, checkSteps,
-    "The time step of arrays that vary in time, counted from 0; for stations also all, the "
-    "default for the output of a model, or FIRST:LAST:STRIDE with LAST included");
-  addChecked(command, "--memory", arguments.Memory, checkMemorySize,
-    "The memory limit for pieces of a partitioned mesh");
-  addThreadsOption(command, arguments.Threads);
-}
-
-int stepNumber(const std::string& text)
-{
-  std::int64_t step = 0;
-  refuseIf(!text.empty() &&
-      (!isOneStep(text) || !parseInteger(text, step) || step > std::numeric_limits<int>::max()),
-    "--step", "must be a number for this mesh");
-  return int(step);
-}
-
-/// Opens a partitioned mesh, or reads a VTK file of any kind. Throws IOError.
-std::unique_ptr<ResidentMesh> openQueryMesh(const QueryMeshArguments& arguments)
-{
-  ResidentOptions options;
-  options.MemoryLimit = *parseMemorySize(arguments.Memory);
-  options.Threads = arguments.Threads;
-  options.Step = stepNumber(arguments.Step);
-  if (isPartitionedMesh(arguments.Path))
-  {
-    return std::make_unique<ResidentMesh>(arguments.Path, options);
-  }
-  parseSteps(arguments.Step, 0, arguments.Path); // throws for any but 0
-  try
-  {
-    return std::make_unique<ResidentMesh>(readVtkPart(arguments.Path, arguments.Threads), options);
-  }
-  catch (const IOError&)
-  {
-    throw;
-  }
-  catch (const std::runtime_error& error)
-  {
-    throw IOError(arguments.Path, std::string("cannot be used: ") + error.what());
-  }
-}
-
-/// Says which time step is evaluated where several are stored and none was asked for, and that
-/// missing values are numbers.
-void noteStep(const QueryMeshArguments& arguments, const ResidentMesh& mesh)
-{
-  const std::vector<double>& times = mesh.mesh().Times;
-  const std::string& units = mesh.mesh().Description.TimeUnits;
-  if (times.size() > 1 && arguments.Step.empty())
-  {
-    fmt::print(stderr,
-      "tipp: warning: {}: has {} time steps, and the values are those of the first one, at {}{}; "
-      "give --step.\n",
-      arguments.Path, times.size(), times.front(), units.empty() ? "" : " " + units);
-  }
-  const std::string step = arguments.Step.empty() ? "0" : arguments.Step;
-  warnOfMissingValues(arguments.Path, mesh.mesh().Description,
-    [&](double) { return "for values at points without it, give --step " + step + ":" + step; });
-}
-
-/// Runs a collective function on all ranks, until it returns or Ctrl-C is pressed. Prints the
-/// message of any exception. Returns the command's exit code.
-int runOnRanks(const std::function<void(Communicator&)>& work)
-{
-  returnLargeBlocks(); // such as pieces
-  const MpiSession session;
-  try
-  {
-    Communicator ranks(session.controller());
-    const PollScope scope(
-      [&ranks]()
-      {
-        if (isInterrupted())
-        {
-          throw RankFailure(ranks.rank(), true, "The run was stopped.");
-        }
-        return true;
-      });
-    ranks.together([&] { work(ranks); });
-  }
-  catch (const RankFailure& failure)
-  {
-    return failure.Aborted ? reportInterrupt() : reportFailure();
-  }
-  catch (const std::exception&)
-  {
-    return reportFailure();
-  }
-  return Success;
-}
 
 void writeText(const std::string& path, const std::string& text, const PathState& before)
 {
@@ -787,131 +675,6 @@ void addQueryCommand(CLI::App& app, int& exitCode)
   addCommand<QueryArguments>(app, exitCode, "query",
     "Finds the cells of a mesh that contain points, and interpolates its arrays there", footer,
     addOptions, run);
-}
-
-namespace
-{
-
-constexpr const char* contourFooter =
-  R"(MESH    a partitioned mesh of triangles, which is read piece by piece; or any VTK file of
-        triangles, or of other cells, which are cut into triangles.
-LINES   .gpkg: a GeoPackage, which needs GDAL; or .vtp. Each line stores its level, and its
-        points have the z of the surface.
-
-Lines continue from piece to piece; they do not depend on pieces, threads and ranks. The
-higher side is on the left. Under mpirun the ranks share the pieces of a partitioned
-mesh. --memory is the limit of each rank, in bytes or such as 512M (2^20 bytes) or 2G.
-
-Examples:
-  tipp contour terrain.tipp -o contours.gpkg --interval 5 --crs EPSG:25832
-  tipp contour surge.vtu -o level.vtp --array zeta --levels 0.5,1,2
-)";
-
-struct ContourArguments
-{
-  QueryMeshArguments Mesh;
-  std::string Output;
-  std::string Array = "elevation";
-  int Component = 0;
-  std::vector<double> Levels;
-  double Interval = 0;
-  std::string Crs;
-};
-
-/// Returns the multiples of the interval within the array's range. Collective.
-std::vector<double> levelsOf(
-  Communicator& ranks, const ResidentMesh& mesh, const ContourArguments& arguments)
-{
-  const auto [low, high] = rangeOf(mesh, arguments.Array, arguments.Component, &ranks);
-  constexpr double most = 1e6;
-  if ((high - low) / arguments.Interval > most)
-  {
-    throw IOError(
-      fmt::format("An interval of {} would give more than 1000000 levels; give a larger one.",
-        arguments.Interval));
-  }
-  // Beyond 2^53, doubles do not hold all multiples.
-  const double largest = std::max(std::fabs(low), std::fabs(high));
-  if (largest / arguments.Interval > 0x1p53 && low <= high)
-  {
-    throw IOError(
-      fmt::format("An interval of {} is too small for values up to {}; give a larger one.",
-        arguments.Interval, largest));
-  }
-  std::vector<double> levels;
-  for (double i = std::ceil(low / arguments.Interval); i * arguments.Interval <= high; ++i)
-  {
-    levels.push_back(i * arguments.Interval);
-  }
-  return levels;
-}
-
-void writeLines(
-  const ContourArguments& arguments, const Contours& contours, const PathState& before)
-{
-  if (isOpenedBy(arguments.Output, Opener::Gdal))
-  {
-    writeGeoPackage(arguments.Output, contours, arguments.Array, arguments.Crs, before);
-    return;
-  }
-  writeContours(arguments.Output, before, contours, arguments.Array);
-}
-
-/// Makes the contour lines of all pieces, which the ranks share. The first rank writes the file.
-/// Collective.
-void makeContours(const ContourArguments& arguments, Communicator& ranks)
-{
-  PathState before;
-  if (ranks.isFirst())
-  {
-    before = requireWritable(arguments.Output, "", { arguments.Mesh.Path });
-  }
-  // Only the first rank reads a mesh that is not partitioned.
-  std::unique_ptr<ResidentMesh> mesh = ranks.isFirst() || isPartitionedMesh(arguments.Mesh.Path)
-    ? openQueryMesh(arguments.Mesh)
-    : std::make_unique<ResidentMesh>(MeshPart());
-  if (ranks.isFirst())
-  {
-    noteStep(arguments.Mesh, *mesh);
-  }
-  const std::vector<double> levels =
-    arguments.Interval > 0 ? levelsOf(ranks, *mesh, arguments) : arguments.Levels;
-  const Contours contours = contoursOf(*mesh, arguments.Array, arguments.Component, levels, &ranks);
-  mesh.reset(); // its memory is free for the file's
-  if (ranks.isFirst())
-  {
-    writeLines(arguments, contours, before);
-    fmt::print("{} lines of {} points, in {}\n", contours.Levels.size(), contours.Points.size(),
-      arguments.Output);
-  }
-}
-
-void addOptions(CLI::App& command, ContourArguments& arguments)
-{
-  command.add_option("mesh", arguments.Mesh.Path, "The mesh, see below")->required();
-  addOutput(command, arguments.Output, "The file to write, see below", Use::WritesLines);
-  command.add_option("--array", arguments.Array, "The name of a point array, or elevation for z")
-    ->capture_default_str();
-  addChecked(command, "--component", arguments.Component, CLI::Range(0, 1000000),
-    "The component of an array that has several, counted from 0");
-  CLI::Option_group* const levels = command.add_option_group("levels");
-  levels->add_option("--levels", arguments.Levels, "The values of the lines, separated by commas")
-    ->delimiter(',');
-  levels->add_option("--interval", arguments.Interval, "Lines at all multiples of this value")
-    ->check(checkPositive);
-  levels->require_option(1);
-  command.add_option("--crs", arguments.Crs, "The reference system of a .gpkg, such as EPSG:25832");
-  addQueryMeshOptions(command, arguments.Mesh);
-}
-
-} // namespace
-
-void addContourCommand(CLI::App& app, int& exitCode)
-{
-  addCommand<ContourArguments>(app, exitCode, "contour",
-    "Makes lines of equal values on a mesh of triangles", contourFooter, addOptions,
-    [](ContourArguments& arguments)
-    { return runOnRanks([&](Communicator& ranks) { makeContours(arguments, ranks); }); });
 }
 
 } // namespace tipp
