@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Files/PagedMemory.h"
 
+#include "Files/IOError.h"
 #include "Files/OutputFile.h"
 #include "Files/Platform.h"
 

@@ -3,6 +3,7 @@
 
 #include "Files/Checksum.h"
 #include "Files/Formats.h"
+#include "Files/IOError.h"
 #include "Files/InputFile.h"
 #include "Files/TextFile.h"
 
@@ -261,10 +262,20 @@ constexpr const char* tablesName = "tables.bin";
 constexpr const char* pvtuName = "mesh.pvtu";
 constexpr const char* vtkHdfName = "mesh.vtkhdf";
 
+/// Whether the path is that of a mesh's index or of its view for vtkHDFReader.
+bool isFileOfMesh(const fs::path& path)
+{
+  return path.filename() == indexName || path.filename() == vtkHdfName;
+}
+
 std::string indexOf(const std::string& path)
 {
   std::error_code ignored;
-  return fs::is_directory(path, ignored) ? (fs::path(path) / indexName).string() : path;
+  const fs::path given = path;
+  const bool isFolder = fs::is_directory(given, ignored);
+  return isFolder         ? (given / indexName).string()
+    : isFileOfMesh(given) ? (given.parent_path() / indexName).string()
+                          : path;
 }
 
 std::string readText(const std::string& path)
@@ -535,8 +546,9 @@ bool isPartitionedMesh(const std::string& path)
     return (has(indexName) && has(tablesName)) ||
       (isOpenedBy(path, Opener::Pieces) && !has("cells.npy"));
   }
-  return fs::path(path).filename() == indexName &&
-    fs::is_regular_file(fs::path(path).parent_path() / tablesName, ignored);
+  const fs::path folder = fs::path(path).parent_path();
+  return isFileOfMesh(path) && fs::is_regular_file(folder / indexName, ignored) &&
+    fs::is_regular_file(folder / tablesName, ignored);
 }
 
 } // namespace tipp

@@ -146,7 +146,8 @@ VTKTIPPIO_EXPORT PartitionedMesh parseIndex(const std::string& text, const std::
 /// their checksums.
 VTKTIPPIO_EXPORT void verifyViews(const PartitionedMesh& mesh);
 
-/// Whether the path looks like a partitioned mesh or its index; opening it may still fail.
+/// Whether the path looks like a partitioned mesh, its index or its mesh.vtkhdf; opening it may
+/// still fail.
 VTKTIPPIO_EXPORT bool isPartitionedMesh(const std::string& path);
 
 } // namespace tipp

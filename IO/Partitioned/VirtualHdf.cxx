@@ -183,11 +183,22 @@ void writeVirtualHdf(const PartitionedMesh& mesh)
 
 void requirePiecesOf(const std::string& vtkHdf)
 {
-  const std::filesystem::path path(vtkHdf);
+  std::error_code ignored;
+  const std::filesystem::path path = std::filesystem::canonical(vtkHdf, ignored); // behind links
   const std::string folder = path.has_parent_path() ? path.parent_path().string() : ".";
   if (path.filename() == "mesh.vtkhdf" && isPartitionedMesh(folder))
   {
     verifyViews(openPartitionedMesh(folder));
+  }
+}
+
+void requireCellType(const std::string& vtkHdf, unsigned char type)
+{
+  if (type == 0)
+  {
+    throw IOError(vtkHdf,
+      "has cells without a type, as where a file that it refers to is missing or cut; keep it in "
+      "the folder of its partitioned mesh, or make a file of its own by 'tipp flatten'.");
   }
 }
 

@@ -18,6 +18,10 @@ void writeVirtualHdf(const PartitionedMesh& mesh);
 /// and all of the mesh's files are there, in their sizes: HDF5 reads zeros for the others.
 void requirePiecesOf(const std::string& vtkHdf);
 
+/// Throws IOError if a cell of a VTKHDF file has no type. HDF5 gives zeros, without an error, for a
+/// piece that is missing or cut, as in a copy of mesh.vtkhdf without its pieces.
+void requireCellType(const std::string& vtkHdf, unsigned char type);
+
 } // namespace tipp
 
 #endif

@@ -5,6 +5,7 @@
 #include "Files/InputFile.h"
 #include "Files/RawValues.h"
 #include "Hdf/VtkHdfFile.h"
+#include "Partitioned/PartitionedMesh.h"
 #include "Partitioned/VirtualHdf.h"
 #include "Series/CellSeries.h"
 #include "Series/CheckTimes.h"
@@ -33,6 +34,12 @@ enum CellType : unsigned char
 };
 
 constexpr const char* ghosts = "vtkGhostType";
+
+/// Whether an array has the ids that pieces have in common, which are no values.
+bool isIds(const std::string& name)
+{
+  return name == "GlobalPointIds" || name == "GlobalCellIds";
+}
 
 std::vector<double> componentOf(const HdfValues& values, std::int64_t component)
 {
@@ -128,7 +135,7 @@ private:
   {
     for (const HdfArray& array : this->File.arrays())
     {
-      if (array.Name == ghosts)
+      if (array.Name == ghosts || isIds(array.Name))
       {
         continue;
       }
@@ -183,6 +190,7 @@ private:
   void addCell(const HdfCells& cells, std::size_t cell, std::vector<std::int64_t>& corners) const
   {
     const unsigned char type = cells.Types[cell];
+    requireCellType(this->Path, type);
     if (type <= LastOfLines)
     {
       return; // no area
@@ -233,7 +241,7 @@ std::unique_ptr<MeshSeries> openVtkHdfSeries(const std::string& path, const Seri
 
 bool isVtkHdfSeries(const std::string& path)
 {
-  return extensionOf(path) == ".vtkhdf" && VtkHdfFile(path).steps() > 1;
+  return extensionOf(path) == ".vtkhdf" && !isPartitionedMesh(path) && VtkHdfFile(path).steps() > 1;
 }
 
 } // namespace tipp

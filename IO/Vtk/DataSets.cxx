@@ -26,6 +26,7 @@
 #include "vtkPointSet.h"
 #include "vtkPolyData.h"
 #include "vtkSTLReader.h"
+#include "vtkUnstructuredGrid.h"
 #include "vtkXMLImageDataReader.h"
 #include "vtkXMLImageDataWriter.h"
 #include "vtkXMLPImageDataReader.h"
@@ -212,7 +213,24 @@ vtkSmartPointer<vtkPointSet> readPointSet(const std::string& path)
       std::string("holds a ") + data->GetClassName() +
         ", which stores no points; convert it with 'tipp flatten'.");
   }
+  removeGhostCells(points);
   return points;
+}
+
+void removeGhostCells(vtkDataSet* data)
+{
+  if (!data->HasAnyGhostCells())
+  {
+    return;
+  }
+  if (auto* const grid = vtkUnstructuredGrid::SafeDownCast(data))
+  {
+    grid->RemoveGhostCells();
+  }
+  else if (auto* const surface = vtkPolyData::SafeDownCast(data))
+  {
+    surface->RemoveGhostCells();
+  }
 }
 
 std::string cellTypeName(int type)

@@ -26,9 +26,12 @@ namespace tipp
 /// IOError, with VTK's own message if a reader fails.
 VTKTIPPIO_EXPORT vtkSmartPointer<vtkDataSet> readDataSet(const std::string& path);
 
-/// As readDataSet(), but throws IOError also for a data set that stores no points, such as an
-/// image.
+/// As readDataSet(), but without ghost cells, and throws IOError also for a data set that stores no
+/// points, such as an image.
 VTKTIPPIO_EXPORT vtkSmartPointer<vtkPointSet> readPointSet(const std::string& path);
+
+/// Removes cells that are copies of another piece's, which would count twice.
+VTKTIPPIO_EXPORT void removeGhostCells(vtkDataSet* data);
 
 /// The file that readDataSet() is reading; null at other times. VTK's readers trust what they read,
 /// so a damaged file can crash them; a program's signal handler can then name the file.

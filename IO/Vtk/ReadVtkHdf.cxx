@@ -61,6 +61,10 @@ vtkSmartPointer<vtkPointSet> readGrid(VtkHdfFile& file)
   {
     throw IOError(file.path(), "has polyhedra, which are not read from VTKHDF; cut them first.");
   }
+  for (const unsigned char type : cells.Types)
+  {
+    requireCellType(file.path(), type);
+  }
   vtkNew<vtkUnsignedCharArray> types;
   types->SetNumberOfTuples(vtkIdType(cells.Types.size()));
   std::copy(cells.Types.begin(), cells.Types.end(), types->GetPointer(0));

@@ -20,7 +20,7 @@ namespace tipp::python
 namespace
 {
 
-SeriesRequest requestOf(const nb::dict& given)
+SeriesRequest seriesRequestOf(const nb::dict& given)
 {
   SeriesRequest request;
   request.Arrays = of<std::vector<std::string>>(given, "arrays");
@@ -71,7 +71,7 @@ nb::dict resampleSeriesOf(const std::string& path, const nb::dict& given, Progre
 {
   Reporter reporter(std::move(progress));
   const SeriesOptions model = seriesOptions(given);
-  const SeriesRequest request = requestOf(given);
+  const SeriesRequest request = seriesRequestOf(given);
   const SeriesRange range = rangeOf(given);
   const auto crs = of<std::string>(given, "crs");
   std::optional<SampledSeries> series = withoutLock(

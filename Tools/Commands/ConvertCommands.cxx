@@ -185,6 +185,10 @@ void checkPaths(FlattenArguments& arguments)
   inputs.push_back(arguments.Input);
   if (isNetcdf(arguments) || isVtkHdf(arguments))
   {
+    if (isPartitionedMesh(arguments.Output))
+    {
+      throw IOError(arguments.Output, "is part of a partitioned mesh; name another file.");
+    }
     arguments.Before = requireWritable(arguments.Output, "", inputs);
     return;
   }
@@ -210,6 +214,13 @@ int writePartitions(const FlattenArguments& arguments)
   fmt::print("{} {}, {} points, {} partitions{} in {}\n", mesh.Cells,
     mesh.CellSize == 3 ? "triangles" : "tetrahedra", mesh.Points, mesh.Pieces.size(),
     mesh.Times.empty() ? "" : fmt::format(", {} steps", mesh.Times.size()), arguments.Output);
+  if (!mesh.Description.isEmpty())
+  {
+    fmt::print(stderr,
+      "tipp: warning: {}: VTKHDF does not state units, the reference system and missing values, "
+      "which become numbers; the partitioned mesh keeps them.\n",
+      shownPath(arguments.Output));
+  }
   return Success;
 }
 
@@ -225,6 +236,10 @@ int runFlatten(FlattenArguments& arguments)
     requireCrs(arguments.Crs);
   }
   const bool isFolder = isFlatMesh(arguments.Input) && !isOpenedBy(arguments.Input, Opener::Vtk);
+  if (isFolder && !isNetcdf(arguments))
+  {
+    throw IOError(arguments.Input, "is a flat mesh already; use it as it is, or write .nc.");
+  }
   if (isMeshSeries(arguments.Input) || (isFolder && isNetcdf(arguments)))
   {
     return flattenModelOutput(arguments);

@@ -83,7 +83,7 @@ void noteStep(const QueryMeshArguments& arguments, const ResidentMesh& mesh)
       arguments.Path, times.size(), times.front(), units.empty() ? "" : " " + units);
   }
   const std::string step = arguments.Step.empty() ? "0" : arguments.Step;
-  warnOfMissingValues(arguments.Path, mesh.mesh().Description,
+  warnOfMissingValues(arguments.Path, mesh.mesh().Description, {},
     [&](double) { return "for values at points without it, give --step " + step + ":" + step; });
 }
 

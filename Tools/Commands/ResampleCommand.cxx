@@ -130,11 +130,11 @@ void warnOfNumbers(const ResampleArguments& arguments)
   {
     if (isPartitionedMesh(path))
     {
-      warnOfMissingValues(path, openPartitionedMesh(path).Description, advice);
+      warnOfMissingValues(path, openPartitionedMesh(path).Description, arguments.Arrays, advice);
     }
     else if (isFlatMesh(path))
     {
-      warnOfMissingValues(path, openFlatMesh(path).Description, advice);
+      warnOfMissingValues(path, openFlatMesh(path).Description, arguments.Arrays, advice);
     }
   }
   catch (const IOError&)

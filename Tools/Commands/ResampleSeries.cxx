@@ -34,7 +34,10 @@ namespace
 
 void refuseOthers(const ResampleArguments& arguments)
 {
-  refuseIf(arguments.Method != "linear", "--method", "conservative is for single steps: --step N");
+  refuseIf(arguments.Method != "linear", "--method",
+    "conservative is for a single step of a flat or partitioned mesh: 'tipp partition' it, and "
+    "give "
+    "--step N");
   refuseIf(arguments.Device != "auto" && arguments.Device != "openmp", "--device",
     "must be openmp for time steps");
   refuseIf(arguments.Null && openerOf(arguments.Output, Use::WritesSeries) != Opener::GeoTiff,

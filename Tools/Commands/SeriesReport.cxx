@@ -41,15 +41,17 @@ void printTimes(
   if (!times.empty())
   {
     fmt::print("steps       {}, {} to {}{}{}\n", times.size(), times.front(), times.back(),
-      units.empty() ? "" : " " + units, calendar.empty() ? "" : ", calendar " + calendar);
+      units.empty() ? "" : " " + onOneLine(units),
+      calendar.empty() ? "" : ", calendar " + onOneLine(calendar));
   }
 }
 
 void printArray(const std::string& name, const char* where, bool varies, const std::string& units,
   const std::string& longName)
 {
-  fmt::print("{:<11} {}{}{}{}\n", name, where, varies ? ", varies" : "",
-    units.empty() ? "" : ", in " + units, longName.empty() ? "" : ": " + longName);
+  fmt::print("{:<11} {}{}{}{}\n", onOneLine(name), where, varies ? ", varies" : "",
+    units.empty() ? "" : ", in " + onOneLine(units),
+    longName.empty() ? "" : ": " + onOneLine(longName));
 }
 
 void warnOfVariablesLeftOut(const std::string& path, const std::vector<SeriesLeftOut>& leftOut)
@@ -61,19 +63,20 @@ void warnOfVariablesLeftOut(const std::string& path, const std::vector<SeriesLef
 }
 
 void warnOfMissingValues(const std::string& path, const MeshDescription& description,
-  const std::function<std::string(double missing)>& advice)
+  const std::vector<std::string>& chosen, const std::function<std::string(double missing)>& advice)
 {
   for (const auto* const arrays : { &description.PointData, &description.CellData })
   {
     for (const auto& [name, array] : *arrays)
     {
-      if (array.Missing)
+      const bool isChosen =
+        chosen.empty() || std::find(chosen.begin(), chosen.end(), name) != chosen.end();
+      if (array.Missing && isChosen)
       {
         fmt::print(stderr,
           "tipp: warning: {}: '{}' has {} where it has no value, which counts as a number here; "
           "{}.\n",
           shownPath(path), shownText(name), *array.Missing, advice(*array.Missing));
-        return;
       }
     }
   }

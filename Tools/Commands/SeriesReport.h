@@ -26,10 +26,10 @@ void printTimes(
 void printArray(const std::string& name, const char* where, bool varies, const std::string& units,
   const std::string& longName);
 
-/// Warns of an array with a value that stands for none, which is a number like others where single
-/// steps are evaluated. `advice` says what to do.
+/// Warns of arrays with a value that stands for none, which is a number like others where single
+/// steps are evaluated. `chosen`: the arrays' names; empty: all. `advice` says what to do.
 void warnOfMissingValues(const std::string& path, const MeshDescription& description,
-  const std::function<std::string(double missing)>& advice);
+  const std::vector<std::string>& chosen, const std::function<std::string(double missing)>& advice);
 
 /// Prints the mesh, its variables, the time steps, and what is left out.
 void describeSeries(MeshSeries& series);

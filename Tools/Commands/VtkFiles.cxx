@@ -11,7 +11,9 @@ namespace tipp
 
 MeshPart readVtkPart(const std::string& path, int threads)
 {
-  return partOf(readDataSet(path), threads);
+  const vtkSmartPointer<vtkDataSet> data = readDataSet(path);
+  removeGhostCells(data);
+  return partOf(data, threads);
 }
 
 void flattenVtkFile(

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <string>
@@ -230,6 +231,64 @@ TEST_F(TippDescribed, HasTheSameMapsInFoldersAndPieces)
   EXPECT_TRUE(std::isnan(file.read(*level).back())); // the dry corner
   this->expectEqual("mesh.nc.maps.nc", "folder.maps.nc");
   this->expectEqual("mesh.nc.maps.nc", "mesh.tipp.maps.nc");
+}
+
+TEST_F(TippDescribed, HasTheSameMapsInTheVtkHdfFileOfItsPieces)
+{
+  this->makeFolderAndPieces();
+  this->make({ "resample", "mesh.tipp", "-o", "a.nc", "--step", "all", "--dims", "9", "7" });
+  this->make(
+    { "resample", "mesh.tipp/mesh.vtkhdf", "-o", "b.nc", "--step", "all", "--dims", "9", "7" });
+  this->expectEqual("a.nc", "b.nc");
+  this->make({ "flatten", "mesh.tipp/mesh.vtkhdf", "-o", "c.nc" });
+  this->expectEqual("mesh.nc", "c.nc");
+}
+
+TEST_F(TippDescribed, IsNotStatedByVtkHdfFilesWhichAWarningSays)
+{
+  this->makeFolderAndPieces();
+  const Outcome outcome = runTipp(this->Folder, { "flatten", "mesh.tipp", "-o", "alone.vtkhdf" });
+  EXPECT_EQ(0, outcome.ExitCode);
+  EXPECT_NE(std::string::npos, outcome.Err.find("does not state units")) << outcome.Err;
+}
+
+TEST_F(TippDescribed, ACopyOfTheVtkHdfFileWithoutItsPiecesIsRefused)
+{
+  this->makeFolderAndPieces();
+  std::filesystem::copy_file(
+    this->Folder.path("mesh.tipp/mesh.vtkhdf"), this->Folder.path("copy.vtkhdf"));
+  const Outcome outcome = runTipp(this->Folder, { "flatten", "copy.vtkhdf", "-o", "copy.nc" });
+  EXPECT_NE(0, outcome.ExitCode);
+  EXPECT_NE(std::string::npos, outcome.Err.find("cells without a type")) << outcome.Err;
+}
+
+TEST_F(TippDescribed, CopiesOfCellsInAVtkHdfFileAreNoCells)
+{
+  std::string points = "x,y,z\n";
+  for (int i = 0; i < 100; ++i)
+  {
+    points += std::to_string(i % 10) + "," + std::to_string(i / 10) + ",1\n";
+  }
+  this->Folder.file("points.csv", points);
+  this->make({ "delaunay", "points.csv", "-o", "lattice.vtu" });
+  this->make({ "partition", "lattice.vtu", "-o", "twice.tipp", "--tiling", "grid:2x2",
+    "--borrowers", "duplicate" });
+  this->make({ "flatten", "twice.tipp", "-o", "twice.vtkhdf" });
+  for (const char* mesh : { "twice.tipp", "twice.vtkhdf", "twice.tipp/mesh.pvtu" })
+  {
+    this->make(
+      { "query", mesh, "-o", "cells.csv", "--ids", "cells", "--bounds", "0", "9", "0", "9" });
+    const std::string cells = contentOf(this->Folder.path("cells.csv"));
+    EXPECT_EQ(1 + 162, std::count(cells.begin(), cells.end(), '\n')) << mesh;
+    this->make({ "volume", mesh, "lattice.vtu" });
+  }
+}
+
+TEST_F(TippUgrid, AFlatMeshIsNotFlattenedAgain)
+{
+  const Outcome outcome = runTipp(this->Folder, { "flatten", "surge", "-o", "again" });
+  EXPECT_NE(0, outcome.ExitCode);
+  EXPECT_NE(std::string::npos, outcome.Err.find("is a flat mesh already")) << outcome.Err;
 }
 
 TEST_F(TippDescribed, IsTheSameUgridFromFoldersAndPieces)
