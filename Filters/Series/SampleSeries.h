@@ -18,7 +18,7 @@ namespace tipp
 /// Time steps of a mesh on a regular grid, in memory.
 struct SampledSeries
 {
-  SeriesDescription Description;  ///< Times are those of the chosen steps
+  SeriesDescription Description;  ///< its times are the chosen steps' times
   std::vector<std::size_t> Steps; ///< the chosen steps
   std::string Wkt;                ///< of Description.Crs, in version 1; empty: unknown
   /// By field: the samples of all its steps, one step after another, or once if it does not vary;

@@ -30,7 +30,7 @@ struct Flattened
   }
 };
 
-/// Sets the cell data of a flattened data set. `arrays`: those of the data set. `parents`: the cell
+/// Sets the cell data of a flattened data set. `arrays`: the data set's arrays. `parents`: the cell
 /// of each simplex in the data set, which become the array "vtkOriginalCellIds" unless the data set
 /// has one from an earlier cut; not used if the cells are unchanged.
 void setCellData(
